@@ -1,0 +1,76 @@
+#include "engine/gpu/buffer.h"
+
+#include "engine/core/check.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace qtrace::gpu {
+namespace {
+
+constexpr double kBytesPerMib = 1024.0 * 1024.0;
+constexpr std::size_t kSmallest = 16;  // an empty scene part still needs something to bind
+
+}  // namespace
+
+Buffer::Buffer(std::string name, std::size_t bytes) : name_(std::move(name)), bytes_(bytes) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  const double mib = static_cast<double>(bytes) / kBytesPerMib;
+  check(bytes <= static_cast<std::size_t>(most),
+        "the buffer of {} needs {:.1f} MiB and this device allows {:.1f} MiB: reduce what it holds", name_,
+        mib, static_cast<double>(most) / kBytesPerMib);
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  if (glGetError() != GL_NO_ERROR) {
+    glDeleteBuffers(1, &id_);
+    fail("the device has no {:.1f} MiB left for the buffer of {}", mib, name_);
+  }
+  clear();
+}
+
+Buffer::~Buffer() {
+  if (id_ != 0) glDeleteBuffers(1, &id_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : name_(std::move(other.name_)), bytes_(other.bytes_), id_(std::exchange(other.id_, 0)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(name_, other.name_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(id_, other.id_);
+  return *this;
+}
+
+void Buffer::bind_storage(int binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), id_);
+}
+
+void Buffer::bind_uniform(int binding) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id_);
+}
+
+void Buffer::clear() { glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+
+void Buffer::clear(std::size_t offset, std::size_t bytes) {
+  glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                            GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void Buffer::write(std::size_t offset, const void* data, std::size_t bytes) {
+  check(offset + bytes <= bytes_, "write of {} bytes at {} outside of the buffer of {}", bytes, offset,
+        name_);
+  glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {
+  check(offset + bytes <= bytes_, "read of {} bytes at {} outside of the buffer of {}", bytes, offset, name_);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+}  // namespace qtrace::gpu

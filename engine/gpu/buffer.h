@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace qtrace::gpu {
+
+// A buffer object with storage that never changes its size. `name` is what errors call it.
+class Buffer {
+ public:
+  // Zeroed. Throws Error where the device does not allow or does not have so much.
+  Buffer(std::string name, std::size_t bytes);
+  template <class T>
+  Buffer(std::string name, std::span<const T> data) : Buffer(std::move(name), data.size_bytes()) {
+    if (!data.empty()) write(0, data.data(), data.size_bytes());
+  }
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  std::size_t bytes() const { return bytes_; }
+  void bind_storage(int binding) const;
+  void bind_uniform(int binding) const;
+
+  void clear();
+  void clear(std::size_t offset, std::size_t bytes);  // multiples of 4
+  void write(std::size_t offset, const void* data, std::size_t bytes);
+  void read(std::size_t offset, void* data, std::size_t bytes) const;  // waits
+
+  template <class T>
+  std::vector<T> read_all() const {
+    std::vector<T> data(bytes_ / sizeof(T));
+    read(0, data.data(), data.size() * sizeof(T));
+    return data;
+  }
+
+ private:
+  std::string name_;
+  std::size_t bytes_ = 0;
+  std::uint32_t id_ = 0;
+};
+
+}  // namespace qtrace::gpu

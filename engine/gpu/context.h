@@ -1,0 +1,41 @@
+// An OpenGL 4.5 core context without display, through EGL.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace qtrace::gpu {
+
+struct DeviceInfo {
+  int index = 0;           // position in list_devices()
+  std::string renderer;    // GL_RENDERER
+  std::string vendor;      // GL_VENDOR
+  std::string gl_version;  // GL_VERSION: OpenGL and driver version
+  std::string platform;    // how EGL reached it: "device" or "surfaceless"
+  bool software = false;   // computes on the CPU
+  std::string problem;     // why it cannot be used; empty where it can
+};
+
+// Everything that EGL offers, usable or not.
+std::vector<DeviceInfo> list_devices();
+
+class Context {
+ public:
+  // `choice`: a device's index, a part of its renderer name, or empty: the first usable hardware device,
+  // else the first usable software device. Throws Error that lists the devices where none fits.
+  // Current on the calling thread until destroyed; one context per thread at a time.
+  explicit Context(const std::string& choice = "");
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const DeviceInfo& device() const;
+  void finish() const;  // returns when all work is done
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace qtrace::gpu

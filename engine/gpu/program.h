@@ -1,0 +1,29 @@
+#pragma once
+
+#include "engine/gpu/shader_source.h"
+
+#include <cstdint>
+#include <string>
+
+namespace qtrace::gpu {
+
+// A compute program. Throws Error with the driver's log, files and lines as in shaders/.
+class Program {
+ public:
+  explicit Program(const ShaderSource& source);
+  // From shaders/<name>.
+  Program(const std::string& name, const Defines& defines);
+  ~Program();
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+
+  std::uint32_t id() const { return id_; }
+  void set_frame(std::uint32_t frame);
+  // Work groups; earlier writes to storage buffers are seen.
+  void dispatch(std::uint32_t x, std::uint32_t y = 1) const;
+
+ private:
+  std::uint32_t id_ = 0;
+};
+
+}  // namespace qtrace::gpu

@@ -1,0 +1,42 @@
+// The scene on the device.
+#pragma once
+
+#include "engine/accel/bvh.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/light_table.h"
+#include "engine/gpu/structs.h"
+#include "engine/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace qtrace::gpu {
+
+// What a scene needs of the shaders; the rest is not compiled.
+struct SceneFeatures {
+  bool specular = false;  // any material with a specular lobe
+  uint lights = 0;        // emitting triangles
+};
+
+class SceneBuffers {
+ public:
+  SceneBuffers(const Scene& scene, const Bvh& bvh);
+
+  void bind() const;
+  std::size_t bytes() const;
+  const SceneFeatures& features() const { return features_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }  // one sentence each
+
+ private:
+  SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights);
+
+  SceneFeatures features_;
+  std::vector<std::string> warnings_;
+  Buffer nodes_;
+  Buffer shapes_;
+  Buffer shades_;
+  Buffer materials_;
+  Buffer lights_;
+};
+
+}  // namespace qtrace::gpu

@@ -1,0 +1,86 @@
+#include "engine/gpu/shader_source.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/embedded_shaders.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace qtrace::gpu {
+namespace {
+
+class Assembler {
+ public:
+  Assembler(const std::string& name, std::string_view text, const Defines& defines) {
+    source_.files.push_back(name);
+    const std::size_t first_line = text.find('\n');
+    check(text.starts_with("#version") && first_line != std::string_view::npos,
+          "shader {}: its first line is not a #version", name);
+    source_.text = text.substr(0, first_line + 1);
+    for (const auto& [key, value] : defines) source_.text += fmt::format("#define {} {}\n", key, value);
+    append(0, text.substr(first_line + 1), 2);
+  }
+
+  ShaderSource take() { return std::move(source_); }
+
+ private:
+  void append(std::size_t file, std::string_view text, int line) {
+    source_.text += fmt::format("#line {} {}\n", line, file);
+    std::istringstream lines{std::string(text)};
+    for (std::string current; std::getline(lines, current); ++line) {
+      if (current.starts_with("#include")) {
+        include(file, current, line);
+      } else {
+        source_.text += current + "\n";
+      }
+    }
+  }
+
+  void include(std::size_t file, const std::string& directive, int line) {
+    const std::size_t open = directive.find('"');
+    const std::size_t close = directive.rfind('"');
+    check(open != std::string::npos && close > open, "{}:{}: an include reads #include \"file\"",
+          source_.files[file], line);
+    const std::string name = directive.substr(open + 1, close - open - 1);
+    if (std::ranges::find(source_.files, name) == source_.files.end()) {
+      source_.files.push_back(name);
+      append(source_.files.size() - 1, shader_file(name), 1);
+    }
+    source_.text += fmt::format("#line {} {}\n", line + 1, file);
+  }
+
+  ShaderSource source_;
+};
+
+}  // namespace
+
+std::string_view shader_file(std::string_view name) {
+  for (const EmbeddedShader& shader : embedded_shaders()) {
+    if (shader.name == name) return shader.text;
+  }
+  fail("there is no shader file {}", name);
+}
+
+ShaderSource assemble(const std::string& name, std::string_view text, const Defines& defines) {
+  return Assembler(name, text, defines).take();
+}
+
+std::string readable_log(const std::string& log, const ShaderSource& source) {
+  static const std::regex place(R"(^(\d+)(?::(\d+)\(\d+\)|\((\d+)\) ?))");
+  std::istringstream lines(log);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, place)) {
+      const std::size_t file = std::stoul(match[1]);
+      const std::string name = file < source.files.size() ? source.files[file] : match[1].str();
+      line = fmt::format("{}:{}{}", name, match[2].matched ? match[2].str() : match[3].str(),
+                         match.suffix().str());
+    }
+    result += line + "\n";
+  }
+  return result;
+}
+
+}  // namespace qtrace::gpu

@@ -1,0 +1,59 @@
+// A scene as plain data in world space: what the loader makes and everything downstream reads.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace qtrace {
+
+// glTF 2.0 metallic-roughness with KHR_materials_specular and KHR_materials_emissive_strength.
+struct Material {
+  std::string name;
+  glm::vec3 base_color{1.0F};      // linear, in [0, 1]
+  float metallic = 1.0F;           // in [0, 1]
+  float roughness = 1.0F;          // perceptual, in [0, 1]; alpha = roughness^2
+  float specular = 1.0F;           // strength of the dielectric lobe, in [0, 1]; 0 with metallic 0: Lambert
+  glm::vec3 specular_color{1.0F};  // F0 tint of the dielectric lobe, >= 0
+  glm::vec3 emission{0.0F};        // radiance, emissiveFactor * emissiveStrength, >= 0
+  bool double_sided = false;       // emission leaves the back face too
+};
+
+// Counter-clockwise order seen from the front, also under a mirroring node transform.
+struct Triangle {
+  std::array<glm::vec3, 3> position;
+  std::array<glm::vec3, 3> normal;  // unit, on the front side; the face normal where the file has none
+  std::array<glm::vec2, 3> uv;      // zero where the object has no UV map
+  std::uint32_t material = 0;
+  std::uint32_t object = 0;
+};
+
+// One mesh node. Its triangles stand together in Scene::triangles.
+struct Object {
+  std::string name;
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+  bool has_uv = false;
+};
+
+// Looks along -z of `world_from_camera`, y up, as in glTF. The image's aspect ratio decides the width.
+struct Camera {
+  glm::mat4 world_from_camera{1.0F};  // rotation and translation only
+  float vertical_fov = 1.0F;          // radians, in (0, pi)
+};
+
+struct Scene {
+  std::string name;  // the file's name without folder and extension
+  std::vector<Triangle> triangles;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+  Camera camera;
+  std::vector<std::string> warnings;  // what the file holds and the tracer does not model, one sentence each
+};
+
+}  // namespace qtrace

@@ -1,0 +1,125 @@
+#include "engine/tracer/film.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/structs.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace qtrace {
+namespace {
+
+// StatisticsBuffer of statistics.glsl.
+struct StatisticsBlock {
+  glm::uvec2 cut_pixel;
+  glm::uvec2 unused;
+  glm::uvec4 locations[gpu::MAX_LOCATIONS];
+  gpu::uint counters[2 * gpu::STATISTIC_COUNT];
+
+  std::uint64_t counter(gpu::uint statistic) const {
+    return (std::uint64_t{counters[2 * statistic + 1]} << 32) | counters[2 * statistic];
+  }
+};
+
+constexpr std::uint32_t kTile = 8;  // pixels along a work group's side
+
+std::uint32_t tiles(int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; }
+
+StatisticsBlock read_block(const gpu::Buffer& buffer) {
+  StatisticsBlock block;
+  buffer.read(0, &block, sizeof(block));
+  return block;
+}
+
+// Variance of the mean of n samples from their sum and sum of squares.
+double variance_of_mean(double sum, double squares, double n) {
+  if (n < 2) return 0;
+  return std::max(0.0, (squares - sum * sum / n) / (n - 1) / n);
+}
+
+}  // namespace
+
+Film::Film(int width, int height)
+    : width_(width),
+      height_(height),
+      samples_("pixel samples",
+               static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample)),
+      sums_("pixel sums",
+            static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
+      statistics_("statistics", sizeof(StatisticsBlock)),
+      accumulate_("accumulate.comp", {}) {}
+
+void Film::bind() const {
+  samples_.bind_storage(gpu::BINDING_SAMPLES);
+  sums_.bind_storage(gpu::BINDING_SUMS);
+  statistics_.bind_storage(gpu::BINDING_STATISTICS);
+}
+
+void Film::start_frame() {
+  constexpr std::size_t kCounterBytes = 2 * sizeof(gpu::uint);
+  statistics_.clear(offsetof(StatisticsBlock, counters), gpu::STATISTIC_PER_FRAME * kCounterBytes);
+}
+
+void Film::accumulate(std::uint32_t frame) {
+  accumulate_.set_frame(frame);
+  accumulate_.dispatch(tiles(width_), tiles(height_));
+}
+
+void Film::reset() {
+  samples_.clear();
+  sums_.clear();
+  statistics_.clear();
+}
+
+void Film::check_loops() const {
+  const StatisticsBlock block = read_block(statistics_);
+  if (block.counter(gpu::STATISTIC_LOOPS_CUT) == 0) return;
+  fail(
+      "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
+      "too few "
+      "loop iterations for these settings; lower rl.sites_per_object or max_bounces, or split large "
+      "overlapping meshes",
+      block.cut_pixel.x, block.cut_pixel.y);
+}
+
+FrameStatistics Film::statistics() const {
+  check_loops();
+  const StatisticsBlock block = read_block(statistics_);
+  FrameStatistics s;
+  s.paths = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+  s.rays = block.counter(gpu::STATISTIC_RAYS);
+  s.path_segments = block.counter(gpu::STATISTIC_SEGMENTS);
+  s.zero_paths = block.counter(gpu::STATISTIC_ZERO_PATHS);
+  s.cell_lookups = block.counter(gpu::STATISTIC_LOOKUPS);
+  s.cell_fallbacks = block.counter(gpu::STATISTIC_FALLBACKS);
+  s.non_finite = block.counter(gpu::STATISTIC_NON_FINITE);
+  s.table_updates = block.counter(gpu::STATISTIC_UPDATES);
+  s.saturated_updates = block.counter(gpu::STATISTIC_SATURATED);
+  return s;
+}
+
+std::vector<NonFiniteSample> Film::non_finite_samples() const {
+  const StatisticsBlock block = read_block(statistics_);
+  const auto stored =
+      std::min<std::uint64_t>(block.counter(gpu::STATISTIC_ALL_NON_FINITE), gpu::MAX_LOCATIONS);
+  std::vector<NonFiniteSample> samples;
+  for (std::uint64_t i = 0; i < stored; ++i) {
+    samples.push_back({block.locations[i].x, block.locations[i].y, block.locations[i].z});
+  }
+  std::ranges::sort(samples, {}, [](const NonFiniteSample& s) { return std::tuple(s.frame, s.y, s.x); });
+  return samples;
+}
+
+RadianceImage Film::radiance(std::uint32_t frames) const {
+  check_loops();
+  RadianceImage image{width_, height_, frames, {}, {}};
+  const double n = frames;
+  for (const gpu::PixelSum& s : sums_.read_all<gpu::PixelSum>()) {
+    image.mean.push_back(frames > 0 ? glm::dvec3(s.r, s.g, s.b) / n : glm::dvec3(0));
+    image.variance.emplace_back(variance_of_mean(s.r, s.r_squared, n), variance_of_mean(s.g, s.g_squared, n),
+                                variance_of_mean(s.b, s.b_squared, n));
+  }
+  return image;
+}
+
+}  // namespace qtrace

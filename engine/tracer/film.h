@@ -1,0 +1,40 @@
+// Per-pixel sums over the frames, and the counts of the last frame.
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/program.h"
+#include "engine/tracer/statistics.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace qtrace {
+
+class Film {
+ public:
+  Film(int width, int height);
+
+  void bind() const;
+  void start_frame();                    // clears the frame's counters
+  void accumulate(std::uint32_t frame);  // adds the frame's samples; parameters must be bound
+  void reset();                          // as at the start
+
+  // These wait for enqueued work and throw Error where the driver cut a loop of a shader short.
+  FrameStatistics statistics() const;
+  std::vector<NonFiniteSample> non_finite_samples() const;  // ordered by frame, then position
+  RadianceImage radiance(std::uint32_t frames) const;
+  void check_loops() const;
+
+  std::size_t bytes() const { return samples_.bytes() + sums_.bytes() + statistics_.bytes(); }
+
+ private:
+  int width_;
+  int height_;
+  gpu::Buffer samples_;
+  gpu::Buffer sums_;
+  gpu::Buffer statistics_;
+  gpu::Program accumulate_;
+};
+
+}  // namespace qtrace

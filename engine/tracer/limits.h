@@ -1,0 +1,14 @@
+// What a device cannot do, said before any work starts.
+#pragma once
+
+#include "engine/core/settings.h"
+#include "engine/gpu/context.h"
+
+namespace qtrace {
+
+// llvmpipe ends every loop of a shader invocation after 65,535 iterations in total, without an error. Throws
+// Error where the search for cells alone would need more than half of that; what remains is for traversal,
+// and shaders report a loop that was cut (Film::check_loops).
+void check_loop_budget(const gpu::DeviceInfo& device, const RenderSettings& settings);
+
+}  // namespace qtrace

@@ -1,0 +1,28 @@
+#include "engine/tracer/parameters.h"
+
+#include <cmath>
+
+namespace qtrace {
+
+gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& settings, gpu::uint lights,
+                                gpu::uint cells) {
+  const auto whole = [](int value) { return static_cast<gpu::uint>(value); };
+  const auto real = [](double value) { return static_cast<float>(value); };
+  const float up = std::tan(camera.vertical_fov / 2);
+  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+  const glm::mat4& m = camera.world_from_camera;
+  const auto& e = settings.environment;
+  gpu::Parameters p{};
+  p.camera_origin = m[3];
+  p.camera_right = m[0] * (up * aspect);
+  p.camera_up = m[1] * up;
+  p.camera_forward = -m[2];
+  p.environment = glm::vec4(real(e[0]), real(e[1]), real(e[2]), 0);
+  p.rl = glm::vec4(real(settings.rl.bsdf_fraction), real(settings.rl.bin_floor),
+                   real(settings.rl.cell_normal_threshold), 0);
+  p.image = glm::uvec4(whole(settings.width), whole(settings.height), settings.seed, 0);
+  p.path = glm::uvec4(whole(settings.max_bounces), whole(settings.russian_roulette_start), lights, cells);
+  return p;
+}
+
+}  // namespace qtrace

@@ -1,0 +1,85 @@
+#include "engine/tracer/qtable.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/structs.h"
+
+namespace qtrace {
+namespace {
+
+constexpr std::uint32_t kSidesPerSite = 2;
+constexpr std::uint32_t kGroupSize = 64;  // of learn.comp
+
+std::vector<gpu::Site> pack_sites(const CellSites& sites) {
+  std::vector<gpu::Site> packed;
+  packed.reserve(sites.sites.size());
+  for (const CellSite& s : sites.sites) packed.push_back({glm::vec4(s.position, 0), glm::vec4(s.normal, 0)});
+  return packed;
+}
+
+std::vector<gpu::SiteRange> pack_ranges(const CellSites& sites) {
+  std::vector<gpu::SiteRange> ranges;
+  for (std::size_t o = 0; o + 1 < sites.first.size(); ++o) {
+    ranges.push_back({sites.first[o], sites.first[o + 1] - sites.first[o]});
+  }
+  return ranges;
+}
+
+template <class T>
+gpu::Buffer upload(const char* name, const std::vector<T>& data) {
+  return gpu::Buffer(name, std::span<const T>(data));
+}
+
+}  // namespace
+
+QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines)
+    : QTable(place_sites(scene, settings.site_placement, settings.sites_per_object), settings, defines) {}
+
+QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines)
+    : cells_(static_cast<std::uint32_t>(sites.sites.size()) * kSidesPerSite),
+      entries_(std::size_t{cells_} * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi)),
+      warnings_(sites.warnings),
+      sites_(upload("Voronoi sites", pack_sites(sites))),
+      ranges_(upload("site ranges", pack_ranges(sites))),
+      values_("Q values (sites x bins)", entries_ * sizeof(float)),
+      visits_("Q visits (sites x bins)", entries_ * sizeof(std::uint32_t)),
+      sums_("Q targets (sites x bins)", entries_ * sizeof(gpu::TargetSum)),
+      bin_starts_("Q distributions (sites x bins)", entries_ * sizeof(std::uint32_t)),
+      next_values_("Q next values (sites)", cells_ * sizeof(float)),
+      learn_("learn.comp", defines) {}
+
+void QTable::bind() const {
+  sites_.bind_storage(gpu::BINDING_SITES);
+  ranges_.bind_storage(gpu::BINDING_SITE_RANGES);
+  values_.bind_storage(gpu::BINDING_Q_VALUES);
+  visits_.bind_storage(gpu::BINDING_Q_VISITS);
+  sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
+  bin_starts_.bind_storage(gpu::BINDING_BIN_STARTS);
+  next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
+}
+
+void QTable::learn() {
+  bind();
+  learn_.dispatch((cells_ + kGroupSize - 1) / kGroupSize);
+}
+
+void QTable::reset() {
+  for (gpu::Buffer* buffer : {&values_, &visits_, &sums_}) buffer->clear();
+  learn();
+}
+
+std::size_t QTable::bytes() const {
+  return sites_.bytes() + ranges_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
+         bin_starts_.bytes() + next_values_.bytes();
+}
+
+std::vector<float> QTable::values() const { return values_.read_all<float>(); }
+
+std::vector<std::uint32_t> QTable::visits() const { return visits_.read_all<std::uint32_t>(); }
+
+void QTable::set_values(std::span<const float> values) {
+  check(values.size() == entries_, "a table of {} values was given for one of {}", values.size(), entries_);
+  values_.write(0, values.data(), values.size_bytes());
+  learn();
+}
+
+}  // namespace qtrace

@@ -1,0 +1,52 @@
+// The Q-table on the device: sites, values, and the update between two frames.
+#pragma once
+
+#include "engine/cells/sites.h"
+#include "engine/core/settings.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/program.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace qtrace {
+
+class QTable {
+ public:
+  QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines);
+
+  void bind() const;
+  // Applies the targets that a frame gathered and prepares the next frame's bins. Parameters must be bound.
+  void learn();
+  // As at the start: all values zero, nothing visited.
+  void reset();
+
+  std::uint32_t cells() const { return cells_; }  // two for each site: front and back of the surface
+  std::size_t bytes() const;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  // For studies and tests of the table itself; entry = cell * bins + bin. set_values() keeps the visits.
+  std::vector<float> values() const;
+  std::vector<std::uint32_t> visits() const;
+  void set_values(std::span<const float> values);
+
+ private:
+  QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines);
+
+  std::uint32_t cells_;
+  std::size_t entries_;
+  std::vector<std::string> warnings_;
+  gpu::Buffer sites_;
+  gpu::Buffer ranges_;
+  gpu::Buffer values_;
+  gpu::Buffer visits_;
+  gpu::Buffer sums_;
+  gpu::Buffer bin_starts_;
+  gpu::Buffer next_values_;
+  gpu::Program learn_;
+};
+
+}  // namespace qtrace

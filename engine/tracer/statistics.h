@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+namespace qtrace {
+
+// Where a sample was not finite: enough to replay it. Such samples count as 0 in the mean.
+struct NonFiniteSample {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t frame = 0;  // from 1
+};
+
+// Counts of one frame.
+struct FrameStatistics {
+  std::uint64_t paths = 0;
+  std::uint64_t rays = 0;               // all rays traced, camera and shadow rays included
+  std::uint64_t path_segments = 0;      // rays of the paths themselves, camera rays included
+  std::uint64_t zero_paths = 0;         // paths whose sample is exactly zero
+  std::uint64_t cell_lookups = 0;       // hits that asked for a cell
+  std::uint64_t cell_fallbacks = 0;     // of these, hits for which no site qualified: BSDF sampling alone
+  std::uint64_t non_finite = 0;         // samples with a NaN or an infinity
+  std::uint64_t table_updates = 0;      // targets gathered for the Q-table
+  std::uint64_t saturated_updates = 0;  // targets clamped to, or lost at, the fixed-point limit
+};
+
+}  // namespace qtrace

@@ -1,0 +1,142 @@
+#include "engine/tracer/tracer.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/scene_buffers.h"
+#include "engine/gpu/structs.h"
+#include "engine/tracer/film.h"
+#include "engine/tracer/limits.h"
+#include "engine/tracer/parameters.h"
+#include "engine/tracer/shader_variant.h"
+
+#include <optional>
+#include <utility>
+
+namespace qtrace {
+namespace {
+
+// Small leaves: every ray of a SIMD group pays for the longest leaf among them.
+constexpr std::uint32_t kLeafTriangles = 4;
+
+}  // namespace
+
+struct Tracer::State {
+  State(const gpu::Context& gpu_context, const Scene& scene, const RenderSettings& wanted)
+      : context(gpu_context),
+        settings(wanted),
+        buffers(scene, build_median_bvh(scene, kLeafTriangles)),
+        film(wanted.width, wanted.height),
+        parameter_block("parameters", sizeof(gpu::Parameters)),
+        trace("trace.comp", shader_defines(wanted, buffers.features())) {
+    if (wanted.sampler == Sampler::rl) {
+      table.emplace(scene, wanted.rl, shader_defines(wanted, buffers.features()));
+    }
+    const gpu::Parameters parameters =
+        make_parameters(scene.camera, wanted, buffers.features().lights, table ? table->cells() : 0);
+    parameter_block.write(0, &parameters, sizeof(parameters));
+    warnings = buffers.warnings();
+    if (table) warnings.insert(warnings.end(), table->warnings().begin(), table->warnings().end());
+  }
+
+  void bind() const {
+    parameter_block.bind_uniform(gpu::BINDING_PARAMETERS);
+    buffers.bind();
+    film.bind();
+    if (table) table->bind();
+  }
+
+  std::pair<std::uint32_t, std::uint32_t> groups() const {
+    const auto tiles = [](int pixels) { return static_cast<std::uint32_t>(pixels + 7) / 8; };
+    return {tiles(settings.width), tiles(settings.height)};
+  }
+
+  // Drivers compile at the first dispatch: one work group of each shader, then everything as at the start.
+  void warm_up() {
+    bind();
+    if (table) table->reset();
+    trace.set_frame(0);
+    trace.dispatch(1);
+    film.accumulate(0);
+    context.finish();
+    film.check_loops();
+    film.reset();
+    if (table) table->reset();
+    context.finish();
+  }
+
+  const gpu::Context& context;
+  RenderSettings settings;
+  gpu::SceneBuffers buffers;
+  Film film;
+  gpu::Buffer parameter_block;
+  gpu::Program trace;
+  std::optional<QTable> table;
+  std::vector<std::string> warnings;
+  std::uint32_t frames = 0;
+  bool learning = true;
+};
+
+Tracer::Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
+  check_loop_budget(context.device(), settings);
+  state_ = std::make_unique<State>(context, scene, settings);
+  state_->warm_up();
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+void Tracer::render_frame() {
+  State& s = *state_;
+  ++s.frames;
+  s.bind();
+  s.film.start_frame();
+  s.trace.set_frame(s.frames);
+  const auto [x, y] = s.groups();
+  s.trace.dispatch(x, y);
+  s.film.accumulate(s.frames);
+  if (s.table && s.learning) s.table->learn();
+}
+
+std::uint32_t Tracer::frames() const { return state_->frames; }
+
+FrameStatistics Tracer::last_frame_statistics() const { return state_->film.statistics(); }
+
+std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
+
+RadianceImage Tracer::radiance() const { return state_->film.radiance(state_->frames); }
+
+FirstHitImage Tracer::first_hit() const {
+  const State& s = *state_;
+  const auto pixels =
+      static_cast<std::size_t>(s.settings.width) * static_cast<std::size_t>(s.settings.height);
+  gpu::Buffer output("first hits", pixels * sizeof(gpu::FirstHit));
+  s.bind();
+  output.bind_storage(gpu::BINDING_OUTPUT);
+  const gpu::Program program("first_hit.comp", {});
+  const auto [x, y] = s.groups();
+  program.dispatch(x, y);
+  s.context.finish();
+  s.film.check_loops();
+  FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}};
+  for (const gpu::FirstHit& hit : output.read_all<gpu::FirstHit>()) {
+    image.normal.emplace_back(hit.normal);
+    image.position.emplace_back(hit.position);
+    image.albedo.emplace_back(hit.albedo);
+  }
+  return image;
+}
+
+QTable* Tracer::table() { return state_->table ? &*state_->table : nullptr; }
+
+void Tracer::set_learning(bool learning) { state_->learning = learning; }
+
+const std::vector<std::string>& Tracer::warnings() const { return state_->warnings; }
+
+std::uint64_t Tracer::cells() const { return state_->table ? state_->table->cells() : 0; }
+
+std::uint64_t Tracer::device_bytes() const {
+  return state_->buffers.bytes() + state_->film.bytes() + state_->parameter_block.bytes() +
+         (state_->table ? state_->table->bytes() : 0);
+}
+
+}  // namespace qtrace

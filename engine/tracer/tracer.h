@@ -1,0 +1,49 @@
+// One run: a scene, settings and the buffers that belong to them, rendered frame by frame.
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/settings.h"
+#include "engine/gpu/context.h"
+#include "engine/scene/scene.h"
+#include "engine/tracer/qtable.h"
+#include "engine/tracer/statistics.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace qtrace {
+
+class Tracer {
+ public:
+  // Builds everything, compiles and warms up the shaders, so that the first frame is like the others.
+  // Throws Error where the device cannot hold the scene or the table. The context must outlive the tracer.
+  Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
+  ~Tracer();
+  Tracer(Tracer&&) noexcept;
+  Tracer& operator=(Tracer&&) noexcept;
+
+  // Enqueues one sample per pixel and, for sampler rl, one update of the Q-table. Does not wait.
+  void render_frame();
+  std::uint32_t frames() const;
+
+  // The readers below wait for enqueued work.
+  FrameStatistics last_frame_statistics() const;
+  std::vector<NonFiniteSample> non_finite_samples() const;  // some of all frames so far, at most 64
+  RadianceImage radiance() const;                           // mean and its variance over all frames
+  FirstHitImage first_hit() const;
+
+  const std::vector<std::string>& warnings()
+      const;                         // what of scene and settings is rendered otherwise, and how
+  QTable* table();                   // null unless sampler is rl; for studies of the table
+  void set_learning(bool learning);  // false: the table stays as it is
+
+  std::uint64_t cells() const;         // rows of the Q-table; 0 unless sampler is rl
+  std::uint64_t device_bytes() const;  // memory of all buffers
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace qtrace

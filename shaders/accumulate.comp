@@ -1,0 +1,46 @@
+#version 450 core
+// Adds a frame's samples to the sums of their pixels, and its counts to the statistics.
+#include "scene.glsl"
+#include "statistics.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_SAMPLES) restrict readonly buffer SampleBuffer { PixelSample samples[]; };
+layout(std430, binding = BINDING_SUMS) restrict buffer SumBuffer { PixelSum sums[]; };
+
+shared uint group_counts[STATISTIC_PER_FRAME];
+
+void add_sample(uint index, vec3 radiance) {
+  dvec3 x = dvec3(radiance);
+  sums[index].r += x.r;
+  sums[index].g += x.g;
+  sums[index].b += x.b;
+  sums[index].r_squared += x.r * x.r;
+  sums[index].g_squared += x.g * x.g;
+  sums[index].b_squared += x.b * x.b;
+}
+
+void count_sample(uvec4 counts, bool is_zero) {
+  atomicAdd(group_counts[STATISTIC_RAYS], counts.x);
+  atomicAdd(group_counts[STATISTIC_SEGMENTS], counts.y);
+  atomicAdd(group_counts[STATISTIC_ZERO_PATHS], is_zero ? 1u : 0u);
+  atomicAdd(group_counts[STATISTIC_LOOKUPS], counts.z & 0xffffu);
+  atomicAdd(group_counts[STATISTIC_FALLBACKS], counts.z >> 16u);
+  atomicAdd(group_counts[STATISTIC_UPDATES], counts.w & 0xffffu);
+  atomicAdd(group_counts[STATISTIC_SATURATED], counts.w >> 16u);
+}
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  if (lane < STATISTIC_PER_FRAME) group_counts[lane] = 0u;
+  barrier();
+  uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + lane;
+  if (index < parameters.image.x * parameters.image.y) {
+    vec3 radiance = samples[index].radiance.rgb;
+    bool finite = is_finite(radiance.r) && is_finite(radiance.g) && is_finite(radiance.b);
+    if (finite) add_sample(index, radiance);
+    else report_non_finite(uvec2(index % parameters.image.x, index / parameters.image.x), frame_number);
+    count_sample(samples[index].counts, radiance == vec3(0.0));
+  }
+  barrier();
+  if (lane < STATISTIC_PER_FRAME) count(lane, group_counts[lane]);
+}

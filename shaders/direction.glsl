@@ -1,0 +1,81 @@
+// How a path goes on: the run's direction sampler and its density.
+#include "bsdf.glsl"
+#if SAMPLER == SAMPLER_RL
+#include "qtable.glsl"
+#endif
+
+// A scattering event: everything that the choice of a direction depends on.
+struct Event {
+  Surface surface;
+  Bsdf bsdf;
+  vec3 wo;
+#if SAMPLER == SAMPLER_RL
+  Cell cell;
+#endif
+};
+
+struct DirectionSample {
+  vec3 direction;
+  float pdf;   // of the whole mixture, per solid angle
+  uint entry;  // of the Q-table, NO_ENTRY where there is none
+};
+
+#if SAMPLER == SAMPLER_RL
+
+// One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where the hit has no cell.
+float mixture_pdf(Event e, vec3 wi, uint bin) {
+  float bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+  if (e.cell.index == NO_CELL) return bsdf;
+  return mix(table_pdf(uint(e.cell.index), bin), bsdf, parameters.rl.x);
+}
+
+float direction_pdf(Event e, vec3 wi) {
+  vec3 local = to_cell(e.cell, e.surface.normal, wi);
+  // Below the surface the table has no bins.
+  return local.z > 0.0 ? mixture_pdf(e, wi, bin_of(local)) : bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+}
+
+DirectionSample sample_direction(Event e, uvec4 bits) {
+  vec2 u = vec2(to_unit(bits.y), to_unit(bits.z));
+  bool has_cell = e.cell.index != NO_CELL;
+  uint cell = has_cell ? uint(e.cell.index) : 0u;
+  DirectionSample result;
+  uint bin;
+  if (has_cell && to_unit(bits.x) >= parameters.rl.x) {
+    bin = choose_bin(cell, bits.w);
+    result.direction = to_world(direction_in_bin(bin, u), e.cell.tangent, e.surface.normal);
+  } else {
+    result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
+    bin = bin_of(to_cell(e.cell, e.surface.normal, result.direction));
+  }
+  result.pdf = mixture_pdf(e, result.direction, bin);
+  result.entry = has_cell ? cell * uint(BINS) + bin : NO_ENTRY;
+  return result;
+}
+
+#elif SAMPLER == SAMPLER_UNIFORM
+
+float direction_pdf(Event e, vec3 wi) {
+  return dot(e.surface.normal, wi) > 0.0 ? 0.5 / PI : 0.0;
+}
+
+DirectionSample sample_direction(Event e, uvec4 bits) {
+  float cosine = to_unit(bits.y);
+  float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
+  float phi = 2.0 * PI * to_unit(bits.z);
+  vec3 local = vec3(sine * cos(phi), sine * sin(phi), cosine);
+  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, 0u);
+}
+
+#else
+
+float direction_pdf(Event e, vec3 wi) {
+  return bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+}
+
+DirectionSample sample_direction(Event e, uvec4 bits) {
+  vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
+  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), 0u);
+}
+
+#endif

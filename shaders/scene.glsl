@@ -1,0 +1,25 @@
+// The scene's buffers.
+#include "structs.glsl"
+
+layout(std430, binding = BINDING_NODES) restrict readonly buffer NodeBuffer { Node nodes[]; };
+layout(std430, binding = BINDING_SHAPES) restrict readonly buffer ShapeBuffer { TriangleShape shapes[]; };
+layout(std430, binding = BINDING_SHADES) restrict readonly buffer ShadeBuffer { TriangleShade shades[]; };
+layout(std430, binding = BINDING_MATERIALS) restrict readonly buffer MaterialBuffer { Material materials[]; };
+layout(std430, binding = BINDING_LIGHTS) restrict readonly buffer LightBuffer { Light lights[]; };
+layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters parameters; };
+layout(location = LOCATION_FRAME) uniform uint frame_number;
+
+const float PI = 3.14159265358979;
+const float INFINITY = uintBitsToFloat(0x7f800000u);
+
+// Set where a loop ended before its own condition: drivers may bound the iterations of a shader
+// (llvmpipe: 65,535, shared by all loops). Reported, never ignored.
+bool loop_was_cut = false;
+
+float average(vec3 v) {
+  return (v.x + v.y + v.z) * (1.0 / 3.0);
+}
+
+float max_component(vec3 v) {
+  return max(v.x, max(v.y, v.z));
+}

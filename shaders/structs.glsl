@@ -1,0 +1,148 @@
+// What the host writes and the shaders read. This file is compiled by both: as GLSL through #include, as
+// C++ by engine/gpu/structs.h. Members are vec4, uvec4 and scalars only, so that std430, std140 and C++ agree
+// (tests/gpu/layout_test.cpp compares every offset with the driver's). Integers that share a vec4 with
+// floats are stored by their bits: floatBitsToUint() reads them.
+
+// Bounding volume hierarchy in preorder; the hit link of an inner node is the next node.
+struct Node {
+  vec4 lo;  // xyz: lower corner, w: bits of the leaf's triangles (first << LEAF_BITS | count), 0 for inner nodes
+  vec4 hi;  // xyz: upper corner, w: bits of the miss link, NO_NODE at the end
+};
+
+// In the order of the leaves; what an intersection test reads.
+struct TriangleShape {
+  vec4 vertex;  // xyz: first vertex
+  vec4 edge1;   // xyz: second vertex - first
+  vec4 edge2;   // xyz: third vertex - first
+};
+
+// In the same order; what a hit reads.
+struct TriangleShade {
+  vec4 normal0;  // xyz: vertex normal, w: bits of the material
+  vec4 normal1;  // w: bits of the object
+  vec4 normal2;  // w: bits of the light, NO_LIGHT where it does not emit
+};
+
+struct Material {      // glTF metallic-roughness
+  vec4 base_color;      // rgb, w: metallic
+  vec4 emission;        // rgb: radiance, w: 1 where the back face emits too
+  vec4 dielectric_f0;   // rgb: reflectance of the dielectric lobe at normal incidence, w: at grazing incidence
+  vec4 roughness;       // x: alpha = roughness^2 (y, z, w: unused)
+};
+
+// An emitting triangle. Chosen in proportion to its power by Walker's alias method.
+struct Light {
+  vec4 vertex;    // xyz: first vertex, w: alias threshold in [0, 1]
+  vec4 edge1;     // w: length by which shadow rays end off the light
+  vec4 edge2;     // w: probability of choosing it / its area (per area)
+  vec4 normal;    // xyz: unit, out of the front face, w: probability of choosing any light of its object
+  vec4 radiance;  // rgb, w: 1 where the back face emits too
+  uvec4 link;     // x: alias, y: object
+};
+
+// Centre of a Voronoi cell.
+struct Site {
+  vec4 position;
+  vec4 normal;  // unit
+};
+
+// The sites of an object: a range of the site buffer.
+struct SiteRange {
+  uint first;
+  uint count;
+};
+
+// Sum of one frame's targets of a table entry: fixed point, high * 2^32 + low in units of TARGET_UNIT.
+struct TargetSum {
+  uint low;
+  uint high;
+  uint count;
+};
+
+// What trace.comp leaves for accumulate.comp.
+struct PixelSample {
+  vec4 radiance;  // rgb: this frame's sample
+  uvec4 counts;   // rays, path segments, cell lookups | fallbacks << 16, updates | saturated << 16
+};
+
+// Sums over all frames, in double precision.
+struct PixelSum {
+  double r;
+  double g;
+  double b;
+  double r_squared;
+  double g_squared;
+  double b_squared;
+};
+
+struct FirstHit {
+  vec4 normal;
+  vec4 position;
+  vec4 albedo;
+};
+
+// Constants of a run (a uniform block).
+struct Parameters {
+  vec4 camera_origin;
+  vec4 camera_right;    // scaled by tan(fov / 2) * aspect
+  vec4 camera_up;       // scaled by tan(fov / 2)
+  vec4 camera_forward;  // unit
+  vec4 environment;     // rgb: constant radiance
+  vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold
+  uvec4 image;          // x: width, y: height, z: seed
+  uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
+};
+
+const int BINDING_PARAMETERS = 0;
+const int BINDING_NODES = 0;
+const int BINDING_SHAPES = 1;
+const int BINDING_SHADES = 2;
+const int BINDING_MATERIALS = 3;
+const int BINDING_LIGHTS = 4;
+const int BINDING_SITES = 5;
+const int BINDING_SITE_RANGES = 6;
+const int BINDING_Q_VALUES = 7;
+const int BINDING_Q_VISITS = 8;
+const int BINDING_TARGET_SUMS = 9;
+const int BINDING_BIN_STARTS = 10;
+const int BINDING_NEXT_VALUES = 11;
+const int BINDING_SAMPLES = 12;
+const int BINDING_SUMS = 13;
+const int BINDING_STATISTICS = 14;
+const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
+
+const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
+
+// Rays leave a surface by this fraction of its largest coordinate: 32 units in the last place of a float,
+// above the rounding of interpolating a point and of the intersection test, which both grow with the
+// coordinates.
+const float OFFSET_FRACTION = 32.0f / 16777216.0f;
+
+const uint NO_NODE = 0xffffffffu;
+const uint NO_TRIANGLE = 0xffffffffu;
+const uint NO_LIGHT = 0xffffffffu;
+const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
+const uint LEAF_BITS = 4u;
+
+// 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it hold 1.7e13.
+const float TARGET_UNIT = 1.0f / 1048576.0f;
+// One target is clamped here (2^28): 32,768 of them fit between TARGET_SATURATED and the end of the range.
+const float TARGET_LIMIT = 268435456.0f;
+// A sum whose high word has reached this takes no more, and counts as this.
+const uint TARGET_SATURATED = 0x80000000u;
+
+// Statistics of a frame: 64-bit counters, low and high word. The last ones stay over all frames.
+const uint STATISTIC_RAYS = 0u;
+const uint STATISTIC_SEGMENTS = 1u;
+const uint STATISTIC_ZERO_PATHS = 2u;
+const uint STATISTIC_LOOKUPS = 3u;
+const uint STATISTIC_FALLBACKS = 4u;
+const uint STATISTIC_UPDATES = 5u;
+const uint STATISTIC_SATURATED = 6u;
+const uint STATISTIC_NON_FINITE = 7u;
+const uint STATISTIC_PER_FRAME = 8u;
+const uint STATISTIC_ALL_NON_FINITE = 8u;
+const uint STATISTIC_LOOPS_CUT = 9u;
+const uint STATISTIC_COUNT = 10u;
+// Behind the counters: where non-finite samples were, x | y << 16 and frame, and where a loop was cut.
+const uint MAX_LOCATIONS = 64u;

@@ -1,0 +1,67 @@
+// From a hit to a shading point.
+#include "traverse.glsl"
+
+struct Surface {
+  vec3 position;
+  vec3 geometric_normal;  // unit, towards the viewer
+  vec3 normal;            // unit shading normal, towards the viewer
+  vec3 mesh_normal;       // the shading normal as the mesh has it, out of the front face
+  bool back;              // seen from the back face
+  uint object;
+  uint light;
+  uint material;
+  float offset;           // length by which rays leave the surface
+};
+
+Surface surface_at(Hit hit, vec3 direction) {
+  vec3 v0 = shapes[hit.triangle].vertex.xyz;
+  vec3 edge1 = shapes[hit.triangle].edge1.xyz;
+  vec3 edge2 = shapes[hit.triangle].edge2.xyz;
+  vec4 n0 = shades[hit.triangle].normal0;
+  vec4 n1 = shades[hit.triangle].normal1;
+  vec4 n2 = shades[hit.triangle].normal2;
+  vec2 b = hit.barycentric;
+
+  Surface s;
+  s.position = v0 + b.x * edge1 + b.y * edge2;
+  s.material = floatBitsToUint(n0.w);
+  s.object = floatBitsToUint(n1.w);
+  s.light = floatBitsToUint(n2.w);
+  vec3 face = normalize(cross(edge1, edge2));
+  s.back = dot(face, direction) > 0.0;
+  float side = s.back ? -1.0 : 1.0;
+  s.geometric_normal = side * face;
+  // Opposite vertex normals can cancel: the tolerance is far below any honest interpolated length.
+  vec3 blend = (1.0 - b.x - b.y) * n0.xyz + b.x * n1.xyz + b.y * n2.xyz;
+  float blend_length = length(blend);
+  s.mesh_normal = blend_length > 1e-6 ? blend / blend_length : face;
+  // Where an interpolated normal faces away from the ray, the geometric one is used.
+  if (side * dot(s.mesh_normal, direction) >= 0.0) s.mesh_normal = face;
+  s.normal = side * s.mesh_normal;
+  vec3 reach = max(abs(v0), max(abs(v0 + edge1), abs(v0 + edge2)));
+  s.offset = OFFSET_FRACTION * max_component(reach);
+  return s;
+}
+
+// Where a ray towards `direction` starts: off the surface on the side that it leaves to.
+vec3 ray_origin(Surface s, vec3 direction) {
+  float side = dot(s.geometric_normal, direction) < 0.0 ? -1.0 : 1.0;
+  return s.position + side * s.offset * s.geometric_normal;
+}
+
+// Radiance that the surface emits towards its viewer; from the front face, unless double-sided.
+vec3 emitted_radiance(Surface s) {
+  vec4 emission = materials[s.material].emission;
+  return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;
+}
+
+// Orthonormal basis about n: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).
+vec3 tangent_of(vec3 n) {
+  float sign_z = n.z < 0.0 ? -1.0 : 1.0;
+  float a = -1.0 / (sign_z + n.z);
+  return vec3(1.0 + sign_z * n.x * n.x * a, sign_z * n.x * n.y * a, -sign_z * n.x);
+}
+
+vec3 to_world(vec3 local, vec3 tangent, vec3 normal) {
+  return local.x * tangent + local.y * cross(normal, tangent) + local.z * normal;
+}
