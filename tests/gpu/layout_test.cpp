@@ -1,0 +1,131 @@
+// Every member of every shared struct: the driver's offset equals offsetof.
+#include "engine/gpu/program.h"
+#include "engine/gpu/structs.h"
+#include "tests/support/device.h"
+
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace qtrace::gpu {
+namespace {
+
+struct Field {
+  std::size_t offset;
+  std::size_t stride;  // of the struct: sizeof
+};
+
+#define FIELD(Struct, member)                                         \
+  {                                                                   \
+#Struct "." #member, { offsetof(Struct, member), sizeof(Struct) } \
+  }
+const std::map<std::string, Field> kFields{FIELD(Node, lo),
+                                           FIELD(Node, hi),
+                                           FIELD(TriangleShape, vertex),
+                                           FIELD(TriangleShape, edge1),
+                                           FIELD(TriangleShape, edge2),
+                                           FIELD(TriangleShade, normal0),
+                                           FIELD(TriangleShade, normal1),
+                                           FIELD(TriangleShade, normal2),
+                                           FIELD(Material, base_color),
+                                           FIELD(Material, emission),
+                                           FIELD(Material, dielectric_f0),
+                                           FIELD(Material, roughness),
+                                           FIELD(Light, vertex),
+                                           FIELD(Light, edge1),
+                                           FIELD(Light, edge2),
+                                           FIELD(Light, normal),
+                                           FIELD(Light, radiance),
+                                           FIELD(Light, link),
+                                           FIELD(Site, position),
+                                           FIELD(Site, normal),
+                                           FIELD(SiteRange, first),
+                                           FIELD(SiteRange, count),
+                                           FIELD(TargetSum, low),
+                                           FIELD(TargetSum, high),
+                                           FIELD(TargetSum, count),
+                                           FIELD(PixelSample, radiance),
+                                           FIELD(PixelSample, counts),
+                                           FIELD(PixelSum, r),
+                                           FIELD(PixelSum, g),
+                                           FIELD(PixelSum, b),
+                                           FIELD(PixelSum, r_squared),
+                                           FIELD(PixelSum, g_squared),
+                                           FIELD(PixelSum, b_squared),
+                                           FIELD(FirstHit, normal),
+                                           FIELD(FirstHit, position),
+                                           FIELD(FirstHit, albedo),
+                                           FIELD(Parameters, camera_origin),
+                                           FIELD(Parameters, camera_right),
+                                           FIELD(Parameters, camera_up),
+                                           FIELD(Parameters, camera_forward),
+                                           FIELD(Parameters, environment),
+                                           FIELD(Parameters, rl),
+                                           FIELD(Parameters, image),
+                                           FIELD(Parameters, path)};
+#undef FIELD
+
+GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
+  GLint value = -1;
+  glGetProgramResourceiv(program, interface, index, 1, &name, 1, nullptr, &value);
+  return value;
+}
+
+// A shader with an array of the struct in a storage buffer, or one of it in a uniform block.
+Program program_with(const std::string& name) {
+  const std::string body =
+      "#version 450 core\n#include \"structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
+      std::string(name == "Parameters" ? "layout(std140, binding = 0) uniform B { Parameters"
+                                       : "layout(std430, binding = 0) buffer B { " + name) +
+      " items" + (name == "Parameters" ? "" : "[]") + "; };\n" +
+      "layout(std430, binding = 1) buffer O { uint o; };\nvoid main() { o = items" +
+      (name == "Parameters" ? ".path.x" : ".length()") + "; }\n";
+  return Program(assemble("layout_test", body, {}));
+}
+
+std::string resource_name(GLuint program, GLenum interface, GLuint index) {
+  char text[256];
+  glGetProgramResourceName(program, interface, index, sizeof(text), nullptr, text);
+  return text;
+}
+
+std::size_t check_struct(const std::string& name) {
+  const Program program = program_with(name);
+  const bool block = name == "Parameters";
+  const GLenum interface = block ? GL_UNIFORM : GL_BUFFER_VARIABLE;
+  GLint count = 0;
+  glGetProgramInterfaceiv(program.id(), interface, GL_ACTIVE_RESOURCES, &count);
+  std::size_t found = 0;
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    const std::string resource = resource_name(program.id(), interface, i);
+    const std::string prefix = block ? "items." : "items[0].";
+    if (!resource.starts_with(prefix)) continue;
+    const std::string key = name + "." + resource.substr(prefix.size());
+    SCOPED_TRACE(key);
+    const auto field = kFields.find(key);
+    if (field == kFields.end()) {
+      ADD_FAILURE() << "member is not in the test's list";
+      continue;
+    }
+    EXPECT_EQ(property(program.id(), interface, i, GL_OFFSET), static_cast<GLint>(field->second.offset));
+    if (!block) {
+      EXPECT_EQ(property(program.id(), interface, i, GL_TOP_LEVEL_ARRAY_STRIDE),
+                static_cast<GLint>(field->second.stride));
+    }
+    ++found;
+  }
+  return found;
+}
+
+TEST(Layout, DriverAgreesWithCpp) {
+  test::device();
+  std::map<std::string, std::size_t> members;
+  for (const auto& [key, field] : kFields) ++members[key.substr(0, key.find('.'))];
+  for (const auto& [name, count] : members) EXPECT_EQ(check_struct(name), count) << name;
+}
+
+}  // namespace
+}  // namespace qtrace::gpu

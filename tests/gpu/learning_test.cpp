@@ -1,0 +1,127 @@
+// The Q-table's arithmetic: gathering in fixed point, the update, and that thread order leaves no trace.
+#include "engine/gpu/scene_buffers.h"
+#include "engine/scene/analytic.h"
+#include "engine/scene/gltf.h"
+#include "engine/tracer/parameters.h"
+#include "engine/tracer/qtable.h"
+#include "engine/tracer/shader_variant.h"
+#include "tests/support/probe.h"
+#include "tests/support/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace qtrace::test {
+namespace {
+
+class Learning : public testing::Test {
+ protected:
+  Learning() {
+    device();
+    scene_ = lit_floor(0.8F, 10, 1, 1).scene;
+    settings_.rl.sites_per_object = 4;
+    settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
+    buffers_.emplace(scene_, build_median_bvh(scene_, 4));
+    defines_ = shader_defines(settings_, buffers_->features());
+    table_.emplace(scene_, settings_.rl, defines_);
+    const gpu::Parameters parameters = make_parameters(scene_.camera, settings_, 2, table_->cells());
+    block_.write(0, &parameters, sizeof(parameters));
+    block_.bind_uniform(gpu::BINDING_PARAMETERS);
+    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    buffers_->bind();
+    table_->reset();
+  }
+
+  // `count` threads each give the target `expression` to entry `entry`; then the frame's update.
+  void teach(const std::string& entry, const std::string& expression, std::uint32_t count) {
+    table_->bind();
+    probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+                      "result = uvec4(gather_target(" + entry + ", " + expression + ") ? 1u : 0u);", count,
+                      defines_);
+    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    table_->learn();
+    device().finish();
+  }
+
+  Scene scene_;
+  RenderSettings settings_;
+  std::optional<gpu::SceneBuffers> buffers_;
+  gpu::Defines defines_;
+  std::optional<QTable> table_;
+  gpu::Buffer block_{"parameters", sizeof(gpu::Parameters)};
+  gpu::Buffer statistics_{"statistics", 4096};
+};
+
+// alpha = 1 / (1 + visits) makes the value the mean of all targets, frame by frame.
+TEST_F(Learning, ValueIsTheMeanOfItsTargets) {
+  teach("3u", "float(index)", 101);  // mean 50
+  EXPECT_NEAR(table_->values()[3], 50, 1e-4);
+  EXPECT_EQ(table_->visits()[3], 101U);
+  teach("3u", "200.0", 50);
+  EXPECT_NEAR(table_->values()[3], (101 * 50 + 50 * 200) / 151.0, 1e-3);
+  EXPECT_EQ(table_->visits()[3], 151U);
+  EXPECT_EQ(table_->values()[2], 0);
+  EXPECT_EQ(table_->visits()[4], 0U);
+}
+
+// A light of radiance 1e8 and a room at 1e-3 in one table, far past 32 bits.
+TEST_F(Learning, HoldsElevenDecades) {
+  teach("index & 1u", "(index & 1u) == 0u ? 1e8 : 1e-3", 1 << 16);
+  EXPECT_NEAR(table_->values()[0] / 1e8, 1, 1e-6);
+  EXPECT_NEAR(table_->values()[1] / 1e-3, 1, 1e-3);
+}
+
+// Past the limit a sum stays at the limit: it neither wraps nor depends on the order of threads.
+TEST_F(Learning, SaturatesInsteadOfWrapping) {
+  constexpr std::uint32_t kTargets = 1 << 17;
+  teach("0u", "1e30", kTargets);
+  const double limit = 9223372036854775808.0 / 1048576.0;
+  EXPECT_NEAR(table_->values()[0] / (limit / kTargets), 1, 1e-5);
+}
+
+TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {
+  const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb");
+  RenderSettings settings;
+  settings.width = settings.height = 64;
+  settings.rl.sites_per_object = 20;
+  std::vector<RadianceImage> images;
+  std::vector<std::vector<float>> tables;
+  for (int i = 0; i < 2; ++i) {
+    Tracer tracer(device(), scene, settings);
+    images.push_back(render(tracer, 8).image);
+    tables.push_back(tracer.table()->values());
+  }
+  EXPECT_EQ(
+      std::memcmp(images[0].mean.data(), images[1].mean.data(), images[0].pixels() * sizeof(glm::dvec3)), 0);
+  EXPECT_EQ(std::memcmp(images[0].variance.data(), images[1].variance.data(),
+                        images[0].pixels() * sizeof(glm::dvec3)),
+            0);
+  EXPECT_EQ(tables[0], tables[1]);
+}
+
+// In the furnace the incident radiance is Le / (1 - albedo) from everywhere: expected SARSA must find it.
+TEST_F(Learning, ExpectedSarsaFindsTheFurnacesRadiance) {
+  RenderSettings settings;
+  settings.width = settings.height = 32;
+  settings.max_bounces = 8;
+  settings.rl.sites_per_object = 4;
+  settings.rl.bins_theta = settings.rl.bins_phi = 4;
+  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
+  render(tracer, 400);
+  const std::vector<float> values = tracer.table()->values();
+  const std::vector<std::uint32_t> visits = tracer.table()->visits();
+  double sum = 0;
+  double entries = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (visits[i] == 0) continue;  // back faces
+    sum += values[i];
+    ++entries;
+  }
+  EXPECT_GT(entries, 0.49 * static_cast<double>(values.size()));
+  // The running mean keeps its first, too dark targets: it approaches 2 from below.
+  EXPECT_NEAR(sum / entries, 2, 0.1);
+}
+
+}  // namespace
+}  // namespace qtrace::test

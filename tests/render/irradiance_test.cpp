@@ -1,0 +1,92 @@
+// Direct light with closed forms: a floor under a square light, and a floor under an open sky.
+#include "engine/accel/traverse.h"
+#include "engine/scene/analytic.h"
+#include "tests/support/render.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace qtrace::test {
+namespace {
+
+constexpr int kSize = 16;
+
+RenderSettings direct_light_settings() {
+  RenderSettings settings;
+  settings.width = settings.height = kSize;
+  settings.max_bounces = 1;
+  settings.seed = 5;
+  settings.rl.sites_per_object = 50;
+  return settings;
+}
+
+// Mean over the image of the closed form, by a fine grid of camera rays in double precision.
+double expected_mean(const LitFloor& lit) {
+  constexpr int kGrid = 64;
+  const glm::dmat4 m(lit.scene.camera.world_from_camera);
+  const double reach = std::tan(lit.scene.camera.vertical_fov / 2.0);
+  double sum = 0;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      const glm::dvec2 ndc((2 * x + 1.0) / kGrid - 1, 1 - (2 * y + 1.0) / kGrid);
+      const glm::dvec3 d =
+          glm::dvec3(m[0]) * ndc.x * reach + glm::dvec3(m[1]) * ndc.y * reach - glm::dvec3(m[2]);
+      const glm::dvec3 origin(m[3]);
+      const glm::dvec3 hit = origin - d * (origin.y / d.y);
+      sum += lit.radiance(hit.x, hit.z);
+    }
+  }
+  return sum / (kGrid * kGrid);
+}
+
+TEST(Irradiance, FloorUnderSquareLight) {
+  const LitFloor lit = lit_floor(0.8F, 10.0F, 1.5F, 1.0F);
+  const Estimate truth{expected_mean(lit), 0};
+  for (const Method& method : all_methods()) {
+    SCOPED_TRACE(method.name);
+    const Rendering r = render(lit.scene, with_method(direct_light_settings(), method), 256);
+    EXPECT_EQ(r.non_finite, 0U);
+    const Estimate all = block_estimate(r.image, 0, 0, kSize);
+    EXPECT_LT(z_score(all, truth), 4) << all.mean << " instead of " << truth.mean;
+    EXPECT_NEAR(all.mean / truth.mean, 1, 0.02);
+  }
+}
+
+// A floor that sees the whole sky reflects albedo times its radiance.
+TEST(Irradiance, FloorUnderOpenSky) {
+  Scene scene;
+  scene.materials.push_back(lambert(glm::vec3(0.5F)));
+  add_quad(scene, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, 0);
+  scene.camera = look_at({1, 2, 1}, {0, 0, 0}, 0.3F);
+  for (const Method& method : all_methods()) {
+    SCOPED_TRACE(method.name);
+    RenderSettings settings = with_method(direct_light_settings(), method);
+    settings.environment = {2, 2, 2};
+    const Estimate all = block_estimate(render(scene, settings, 256).image, 0, 0, kSize);
+    EXPECT_LT(z_score(all, {1.0, 0}), 4) << all.mean;
+  }
+}
+
+// Emission leaves the front face alone, and both faces of a double-sided material.
+TEST(Irradiance, EmissionIsOneSidedUnlessDoubleSided) {
+  for (const bool double_sided : {false, true}) {
+    for (const Method& method : all_methods()) {
+      SCOPED_TRACE(method.name + (double_sided ? ", double-sided" : ", one-sided"));
+      LitFloor lit = lit_floor(0.8F, 10.0F, 1.5F, 1.0F);
+      Scene& scene = lit.scene;
+      for (Triangle& t : scene.triangles) {
+        if (t.material != 1) continue;
+        std::swap(t.position[1], t.position[2]);
+        for (glm::vec3& n : t.normal) n = -n;
+      }
+      scene.materials[1].double_sided = double_sided;
+      const Estimate truth{double_sided ? expected_mean(lit) : 0.0, 0};
+      const Estimate all =
+          block_estimate(render(scene, with_method(direct_light_settings(), method), 128).image, 0, 0, kSize);
+      EXPECT_LT(z_score(all, truth), 4) << all.mean << " instead of " << truth.mean;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace qtrace::test
