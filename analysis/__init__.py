@@ -1,0 +1,1 @@
+"""Reads, condenses and draws what `qtrace run` wrote."""

@@ -1,0 +1,173 @@
+"""Draws error against samples and against seconds: a row of panels per scene, a line per cell."""
+
+from __future__ import annotations
+
+import textwrap
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+from analysis import style
+from analysis.command import AnalysisError
+from analysis.load import Results
+from analysis.statistics import over_seeds
+
+# Axis label and the column of the reference's own noise in the same norm, where there is one.
+METRICS = {
+    "mse": ("MSE (squared radiance)", "reference_mse"),
+    "relmse": ("relMSE (dimensionless)", "reference_relmse"),
+    "relmse_trimmed": ("relMSE, worst 0.1 % of pixels\nleft out (dimensionless)", None),
+    "mape": ("MAPE (fraction)", None),
+}
+X_AXES = {"spp": "samples per pixel (spp)", "seconds": "render time (s), learning included"}
+WIDTH = 11.0       # inches
+ROW_HEIGHT = 3.7
+FLOOR_REACH = 100  # a floor this much below all curves is named rather than drawn, to leave them room
+BAND_REACH = 4     # bands may widen the axis by this factor; few seeds can give bands of many decades
+
+
+def _axis_range(points: pd.DataFrame, floors: list[float]) -> tuple[float, float]:
+    means = points["mean"][points["mean"] > 0]
+    lowest, highest = means.min(), means.max()
+    bottom = np.nanmin([lowest, max(points.low.min(), lowest / BAND_REACH)])
+    top = np.nanmax([highest, min(points.high.max(), highest * BAND_REACH)])
+    bottom = min([bottom, *(floor for floor in floors if floor >= lowest / FLOOR_REACH)])
+    margin = (top / bottom) ** 0.06 * 1.02
+    return bottom / margin, top * margin
+
+
+def _draw_cells(axes: Axes, points: pd.DataFrame, x: str, styles: dict[str, dict]) -> None:
+    faint = min(1, 8 / len(styles))  # many bands over each other shall not hide the lines
+    for label, cell in points.groupby("label", sort=False):
+        look = styles[label]
+        at_floor = cell.at_floor.to_numpy()
+        axes.plot(cell[x], cell["mean"], label=label, markevery=~at_floor, zorder=3, **look)
+        if at_floor.any():
+            axes.plot(cell[x], cell["mean"], label=f"_{label} at floor", markevery=at_floor, zorder=4,
+                      **{**look, "linestyle": "none", "markerfacecolor": "white"})
+        if cell.low.notna().any():
+            axes.fill_between(cell[x], cell.low, cell.high, label=f"_{label} band", linewidth=0.7, zorder=2,
+                              facecolor=to_rgba(look["color"], 0.16 * faint),
+                              edgecolor=to_rgba(look["color"], 0.45 * faint))
+
+
+def _floor_values(convergence: pd.DataFrame, column: str | None) -> list[float]:
+    """Each reference's noise once; none where it is unknown."""
+    return [] if column is None else sorted(convergence[column].dropna().unique())
+
+
+def _draw_floors(axes: Axes, floors: list[float], with_text: bool) -> None:
+    bottom = axes.get_ylim()[0]
+    inside = [floor for floor in floors if floor >= bottom]
+    for floor in inside:
+        axes.axhline(floor, label="_floor", zorder=1, **style.FLOOR)
+    if not with_text or not floors:
+        return
+    note = {"xytext": (4, 3), "textcoords": "offset points", "fontsize": 8.5, "color": "0.25", "zorder": 5,
+            "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.8}}
+    values = " to ".join(f"{floor:.2g}" for floor in dict.fromkeys((floors[0], floors[-1])))
+    if inside:
+        axes.annotate(f"reference's own noise: {values}", (0, inside[-1]), xycoords=("axes fraction", "data"), **note)
+    else:
+        axes.annotate(f"reference's own noise: {values}, below this axis ↓", (0, 0), xycoords="axes fraction", **note)
+
+
+def _format_axis(axis: matplotlib.axis.Axis, low: float, high: float) -> None:
+    """Plain numbers; 1, 2, 5 as ticks where whole decades would be too few to read values from."""
+    steps = (1, 2, 5) if high / low < 1000 else (1,)
+    axis.set_major_locator(LogLocator(10, subs=steps, numticks=12))
+    axis.set_minor_locator(NullLocator() if len(steps) > 1 else LogLocator(10, subs=range(2, 10), numticks=12))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(FuncFormatter(lambda *_: ""))
+
+
+def _format_panel(axes: Axes, points: pd.DataFrame, x: str, y_range: tuple[float, float]) -> None:
+    base = 2 if x == "spp" else 10  # snapshots are at powers of two
+    axes.set_xscale("log", base=base)
+    axes.set_yscale("log")
+    axes.set_ylim(y_range)
+    _format_axis(axes.yaxis, *y_range)
+    if x == "spp":
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    else:
+        _format_axis(axes.xaxis, points[x].min(), points[x].max())
+    axes.set_xlabel(X_AXES[x])
+
+
+def _legend(figure: Figure, points: pd.DataFrame, styles: dict[str, dict], has_floor: bool) -> None:
+    entries = [Line2D([], [], label=label, **look) for label, look in styles.items()]
+    if points.low.notna().any():
+        entries.append(Patch(color="0.5", alpha=0.3, linewidth=0, label="95 % confidence of the mean"))
+    if has_floor:
+        entries.append(Line2D([], [], label="reference's own noise", **style.FLOOR))
+    if points.at_floor.any():
+        entries.append(Line2D([], [], color="0.2", marker="o", linestyle="none", markerfacecolor="white",
+                              label="at the reference's noise"))
+    longest = max(len(entry.get_label()) for entry in entries)
+    columns = max(1, min(len(entries), int(WIDTH / (0.08 * longest + 0.6))))
+    figure.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=columns, frameon=False,
+                  handlelength=3)
+
+
+def _span(values: pd.Series, unit: str) -> str:
+    low, high = int(values.min()), int(values.max())
+    count = str(low) if low == high else f"{low} to {high}"
+    return f"{count} {unit}" + ("" if count == "1" else "s")
+
+
+def _title(results: Results, points: pd.DataFrame) -> str:
+    title = f"{results.name}: {_span(points.seeds, 'seed')}, {_span(results.finished.frames, 'frame')}"
+    finished = len(results.finished)
+    return title if finished == results.planned_runs else f"{title}, {finished} of {results.planned_runs} runs"
+
+
+def _caption(results: Results, points: pd.DataFrame, floor_column: str | None) -> str:
+    single = points.seeds == 1
+    sentences = ["One seed per line: there is no confidence band." if single.all() else
+                 "Lines: mean over seeds. Bands: 95 % confidence interval of that mean (Student's t)."]
+    if single.any() and not single.all():
+        sentences.append("Lines of one seed have no band.")
+    if floor_column is None:
+        sentences.append("The reference's own noise is not known in this metric.")
+    device = results.experiment.get("device", {}).get("renderer")
+    sentences.append(f"Time: host clock, setup left out{f', on {device}' if device else ''}.")
+    return textwrap.fill(" ".join(sentences), 155)
+
+
+def convergence_figure(results: Results, metric: str) -> Figure:
+    """Raises AnalysisError where nothing can be drawn on logarithmic axes."""
+    label, floor_column = METRICS[metric]
+    points = over_seeds(results.convergence, metric)
+    if not (points["mean"] > 0).any():
+        raise AnalysisError(f"{results.folder}: no {metric} is above zero, so there is nothing to draw")
+    styles = style.line_styles(points.label)
+    scenes = list(dict.fromkeys(points.scene))
+    with matplotlib.rc_context(style.RC):
+        figure = Figure(figsize=(WIDTH, ROW_HEIGHT * len(scenes) + 0.8), layout="constrained")
+        figure.suptitle(_title(results, points), fontsize=13)
+        figure.supxlabel(_caption(results, points, floor_column), fontsize=8.5, color="0.25")
+        grid = figure.subplots(len(scenes), len(X_AXES), squeeze=False)
+        any_floor = False
+        for scene, row in zip(scenes, grid):
+            here = points[points.scene == scene]
+            floors = _floor_values(results.convergence[results.convergence.scene == scene], floor_column)
+            y_range = _axis_range(here, floors)
+            for x, axes in zip(X_AXES, row):
+                _draw_cells(axes, here, x, styles)
+                _format_panel(axes, here, x, y_range)
+                _draw_floors(axes, floors, with_text=x == "spp")
+            row[0].set_ylabel(label)
+            row[0].set_title(scene, loc="left", fontweight="bold")
+            any_floor = any_floor or any(floor >= y_range[0] for floor in floors)
+        _legend(figure, points, styles, any_floor)
+        # The layout is fixed here, as each drawing would move it a little: all formats shall agree.
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+    return figure

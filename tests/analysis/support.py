@@ -1,0 +1,95 @@
+"""Puts the repository on the import path, and makes result folders with known errors."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+import tempfile
+import unittest
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import Any, Callable
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+SNAPSHOTS = [1, 2, 4, 8]
+REFERENCE_NOISE = {"reference_mse": 0.002, "reference_relmse": 0.01}
+METHODS = {"NEE, two rays": 1.0, "BSDF": 10.0, "RL": 4.0}  # relMSE at one sample, for a seed in the middle
+SECONDS = {"NEE, two rays": 0.5, "BSDF": 0.25, "RL": 1.0}  # per frame
+
+
+def relmse(method: str, seed: int, frame: int, scene: str = "simple") -> float:
+    """Falls as 1/spp; the seeds 1, 2, 3 lie at 0.9, 1 and 1.1 times the middle."""
+    return METHODS[method] * (2 if scene == "occluded" else 1) * (0.8 + 0.1 * seed) / frame
+
+
+def write_csv(file: Path, rows: list[dict[str, Any]]) -> None:
+    with file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, rows[0].keys())  # RFC 4180, as the program writes
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def convergence_rows(scene: str, method: str, seed: int) -> list[dict[str, Any]]:
+    rows = []
+    for frame in SNAPSHOTS:
+        error = relmse(method, seed, frame, scene)
+        rows.append({"frame": frame, "spp": frame, "elapsed_s": SECONDS[method] * frame + 0.01 * seed,
+                     "gpu_elapsed_s": SECONDS[method] * frame, "mse": error / 2, "relmse": error,
+                     "relmse_trimmed": error * 0.9, "mape": error ** 0.5, "bias": -0.001, **REFERENCE_NOISE,
+                     "at_reference_floor": int(error <= 3 * REFERENCE_NOISE["reference_relmse"]),
+                     "non_finite_pixels": 0, "non_finite": 0})
+    return rows
+
+
+def frame_rows(method: str) -> list[dict[str, Any]]:
+    return [{"frame": frame, "is_warmup": int(frame == 1), "host_ms": SECONDS[method] * 1e3,
+             "gpu_ms": SECONDS[method] * 900, "mean_path_length": "" if frame == 1 else 2.5}
+            for frame in range(1, SNAPSHOTS[-1] + 1)]
+
+
+def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded"),
+                  methods: tuple[str, ...] = tuple(METHODS), seeds: tuple[int, ...] = (1, 2, 3)) -> Path:
+    """A finished experiment called 'study', as `qtrace run` leaves it."""
+    summary, runs = [], []
+    for scene in scenes:
+        for method in methods:
+            for seed in seeds:
+                run = f"scene={scene},method={method.lower().replace(', ', '-').replace(' ', '-')},seed={seed}"
+                (folder / run).mkdir(parents=True)
+                write_csv(folder / run / "convergence.csv", convergence_rows(scene, method, seed))
+                write_csv(folder / run / "frames.csv", frame_rows(method))
+                summary.append({"run": run, "cell": f"{scene} / {method}", "axis:scene": scene,
+                                "axis:method": method, "axis:seed": str(seed), "scene": scene, "seed": seed,
+                                "status": "finished", "reason": "", "frames": SNAPSHOTS[-1],
+                                "relmse": relmse(method, seed, SNAPSHOTS[-1], scene)})
+                runs.append({"run": run, "status": "finished"})
+    write_csv(folder / "summary.csv", summary)
+    manifest = {"status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
+    (folder / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
+    return folder
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a temporary folder of its own."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.results = self.folder / "study"
+
+    def edit(self, name: str, change: Callable[[str], str]) -> None:
+        file = self.results / name
+        file.write_bytes(change(file.read_bytes().decode()).encode())
+
+    def run_script(self, main: Callable[[list[str]], None], *arguments: object) -> tuple[int, str, str]:
+        """Exit code, stdout and stderr."""
+        from analysis import command
+        out, err = io.StringIO(), io.StringIO()
+        with redirect_stdout(out), redirect_stderr(err):
+            code = command.run(lambda: main([str(argument) for argument in arguments]))
+        return code, out.getvalue(), err.getvalue()
