@@ -18,7 +18,6 @@ namespace {
 class Learning : public testing::Test {
  protected:
   Learning() {
-    device();
     scene_ = lit_floor(0.8F, 10, 1, 1).scene;
     settings_.rl.sites_per_object = 4;
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
@@ -44,6 +43,7 @@ class Learning : public testing::Test {
     device().finish();
   }
 
+  const gpu::Context& context_ = device();  // before the first buffer
   Scene scene_;
   RenderSettings settings_;
   std::optional<gpu::SceneBuffers> buffers_;

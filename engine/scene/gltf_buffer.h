@@ -1,0 +1,18 @@
+// Loads the buffers of a scene: BIN chunk, data URI, or a file that stays inside the scene's folder.
+#pragma once
+
+#include "engine/scene/gltf_file.h"
+#include "engine/scene/gltf_source.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <vector>
+
+namespace qtrace::gltf {
+
+// Each buffer has exactly its declared byteLength.
+std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann::json& document,
+                                           const std::filesystem::path& folder, FileContent content);
+
+}  // namespace qtrace::gltf

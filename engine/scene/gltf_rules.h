@@ -1,0 +1,92 @@
+// Which properties of the glTF JSON are checked, and for what.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace qtrace::gltf {
+
+enum class Kind { string, boolean, integer, stride, number, numbers, one_of, index };
+
+struct Rule {
+  // Segments between '/': [] is every element of an array, {} every member of an object, and a name with
+  // '!' must be there.
+  std::string_view path;
+  Kind kind;
+  std::string_view words = {};  // one_of: the values; index: the array it points into
+  std::size_t length = 0;       // numbers
+};
+
+inline constexpr std::string_view kComponentTypes = "5120 5121 5122 5123 5125 5126";
+inline constexpr std::string_view kTypes = "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4";
+
+inline constexpr Rule kRules[] = {
+    {"scene", Kind::index, "scenes"},
+    {"scenes/[]/nodes/[]", Kind::index, "nodes"},
+    {"nodes/[]/name", Kind::string},
+    {"nodes/[]/children/[]", Kind::index, "nodes"},
+    {"nodes/[]/mesh", Kind::index, "meshes"},
+    {"nodes/[]/camera", Kind::index, "cameras"},
+    {"nodes/[]/skin", Kind::index, "skins"},
+    {"nodes/[]/matrix", Kind::numbers, {}, 16},
+    {"nodes/[]/translation", Kind::numbers, {}, 3},
+    {"nodes/[]/rotation", Kind::numbers, {}, 4},
+    {"nodes/[]/scale", Kind::numbers, {}, 3},
+    {"meshes/[]/name", Kind::string},
+    {"meshes/[]/primitives/[]/attributes!/{}", Kind::index, "accessors"},
+    {"meshes/[]/primitives/[]/indices", Kind::index, "accessors"},
+    {"meshes/[]/primitives/[]/material", Kind::index, "materials"},
+    {"meshes/[]/primitives/[]/mode", Kind::one_of, "0 1 2 3 4 5 6"},
+    {"meshes/[]/primitives/[]/targets/[]/{}", Kind::index, "accessors"},
+    {"accessors/[]/bufferView", Kind::index, "bufferViews"},
+    {"accessors/[]/byteOffset", Kind::integer},
+    {"accessors/[]/componentType!", Kind::one_of, kComponentTypes},
+    {"accessors/[]/count!", Kind::integer},
+    {"accessors/[]/type!", Kind::one_of, kTypes},
+    {"accessors/[]/normalized", Kind::boolean},
+    {"accessors/[]/sparse/indices/bufferView", Kind::index, "bufferViews"},
+    {"accessors/[]/sparse/values/bufferView", Kind::index, "bufferViews"},
+    {"bufferViews/[]/buffer!", Kind::index, "buffers"},
+    {"bufferViews/[]/byteOffset", Kind::integer},
+    {"bufferViews/[]/byteLength!", Kind::integer},
+    {"bufferViews/[]/byteStride", Kind::stride},
+    {"buffers/[]/byteLength!", Kind::integer},
+    {"buffers/[]/uri", Kind::string},
+    {"materials/[]/name", Kind::string},
+    {"materials/[]/pbrMetallicRoughness/baseColorFactor", Kind::numbers, {}, 4},
+    {"materials/[]/pbrMetallicRoughness/metallicFactor", Kind::number},
+    {"materials/[]/pbrMetallicRoughness/roughnessFactor", Kind::number},
+    {"materials/[]/pbrMetallicRoughness/baseColorTexture/index!", Kind::index, "textures"},
+    {"materials/[]/pbrMetallicRoughness/metallicRoughnessTexture/index!", Kind::index, "textures"},
+    {"materials/[]/normalTexture/index!", Kind::index, "textures"},
+    {"materials/[]/occlusionTexture/index!", Kind::index, "textures"},
+    {"materials/[]/emissiveTexture/index!", Kind::index, "textures"},
+    {"materials/[]/emissiveFactor", Kind::numbers, {}, 3},
+    {"materials/[]/alphaMode", Kind::one_of, "OPAQUE MASK BLEND"},
+    {"materials/[]/doubleSided", Kind::boolean},
+    {"materials/[]/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
+    {"materials/[]/extensions/KHR_materials_specular/specularFactor", Kind::number},
+    {"materials/[]/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers, {}, 3},
+    {"materials/[]/extensions/KHR_materials_specular/specularTexture/index!", Kind::index, "textures"},
+    {"materials/[]/extensions/KHR_materials_specular/specularColorTexture/index!", Kind::index, "textures"},
+    {"cameras/[]/name", Kind::string},
+    {"cameras/[]/type!", Kind::one_of, "perspective orthographic"},
+    {"cameras/[]/perspective/yfov!", Kind::number},
+    {"cameras/[]/perspective/znear!", Kind::number},
+    {"textures/[]/source", Kind::index, "images"},
+    {"textures/[]/sampler", Kind::index, "samplers"},
+    {"images/[]/bufferView", Kind::index, "bufferViews"},
+    {"skins/[]/name", Kind::string},
+    {"skins/[]/joints/[]", Kind::index, "nodes"},
+    {"skins/[]/skeleton", Kind::index, "nodes"},
+    {"skins/[]/inverseBindMatrices", Kind::index, "accessors"},
+    {"animations/[]/name", Kind::string},
+    {"animations/[]/channels/[]/target/node", Kind::index, "nodes"},
+    {"animations/[]/samplers/[]/input", Kind::index, "accessors"},
+    {"animations/[]/samplers/[]/output", Kind::index, "accessors"},
+    {"extensions/KHR_lights_punctual/lights/[]/name", Kind::string},
+    {"extensionsUsed/[]", Kind::string},
+    {"extensionsRequired/[]", Kind::string},
+};
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,53 @@
+// What the parts of the glTF loader share: the parsed file, and messages that name it.
+#pragma once
+
+#include "engine/core/check.h"
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace qtrace::gltf {
+
+struct Source {
+  std::string file;  // as the user wrote it
+  tinygltf::Model model;
+  std::vector<std::string> warnings;
+
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
+    qtrace::fail("{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  template <class... Args>
+  void check(bool condition, fmt::format_string<Args...> format, Args&&... args) const {
+    if (!condition) fail(format, std::forward<Args>(args)...);
+  }
+
+  template <class... Args>
+  void warn(fmt::format_string<Args...> format, Args&&... args) {
+    warnings.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+};
+
+// "mesh 'teapot'", or "mesh 3" without a name. Control characters would break a message's line.
+inline std::string label(std::string_view kind, std::size_t index, std::string name) {
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+}
+
+// Instead of fmt::join, in whose version 9 GCC 12 sees an overflow that is not there.
+inline std::string joined(std::span<const std::string_view> words, std::string_view separator) {
+  std::string text;
+  for (const std::string_view word : words) text.append(text.empty() ? "" : separator).append(word);
+  return text;
+}
+
+}  // namespace qtrace::gltf

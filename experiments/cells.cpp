@@ -1,0 +1,63 @@
+#include "experiments/cells.h"
+
+#include <algorithm>
+
+namespace qtrace::experiments {
+namespace {
+
+using Members = std::vector<const RunRecord*>;
+
+std::optional<FrameTimes> pooled_times(const Members& runs, std::vector<double> (RunRecord::*times)() const) {
+  std::vector<double> pooled;
+  for (const RunRecord* run : runs) {
+    for (const double time : (run->*times)()) pooled.push_back(time);
+  }
+  if (pooled.empty()) return std::nullopt;
+  return FrameTimes{*quantile(pooled, 0.5), *quantile(pooled, 0.1), *quantile(pooled, 0.9)};
+}
+
+Cell make_cell(const Members& members) {
+  const RunRecord& first = *members.front();
+  Cell cell;
+  cell.name = first.run.cell;
+  cell.scene = first.scene;
+  cell.labels = first.run.labels;
+  cell.frames = first.run.config.frames;
+  cell.runs = members.size();
+  Members finished;
+  std::vector<double> relmse, elapsed, inefficiency;
+  for (const RunRecord* run : members) {
+    cell.non_finite += run->totals().non_finite;
+    const ErrorMetrics* errors = run->final_errors();
+    if (errors == nullptr) continue;
+    finished.push_back(run);
+    relmse.push_back(errors->relmse);
+    elapsed.push_back(run->elapsed_s());
+    inefficiency.push_back(*run->relmse_x_seconds());
+    if (errors->at_reference_floor()) ++cell.at_reference_floor;
+  }
+  cell.finished = finished.size();
+  cell.host_ms = pooled_times(finished, &RunRecord::host_ms);
+  cell.gpu_ms = pooled_times(finished, &RunRecord::gpu_ms);
+  cell.relmse = estimate(relmse);
+  cell.elapsed_s = estimate(elapsed);
+  cell.relmse_x_s = estimate(inefficiency);
+  return cell;
+}
+
+}  // namespace
+
+std::vector<Cell> collect_cells(const std::vector<RunRecord>& records) {
+  std::vector<std::pair<std::string, Members>> groups;
+  for (const RunRecord& record : records) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&record](const auto& entry) { return entry.first == record.run.cell; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {record.run.cell, {}});
+    group->second.push_back(&record);
+  }
+  std::vector<Cell> cells;
+  for (const auto& [name, members] : groups) cells.push_back(make_cell(members));
+  return cells;
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,40 @@
+// Cells of a sweep (not of a Q-table): runs that differ in their seed alone, taken together.
+#pragma once
+
+#include "experiments/records.h"
+#include "experiments/statistics.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// Middle and spread of the frames of all seeds that count.
+struct FrameTimes {
+  double median = 0;
+  double p10 = 0;
+  double p90 = 0;
+};
+
+// Estimates are over the finished seeds; empty where none finished.
+struct Cell {
+  std::string name;  // axis labels but the seed, joined by " / "
+  std::string scene;
+  std::vector<std::string> labels;  // one per axis, of the first run
+  int frames = 0;
+  std::size_t runs = 0;
+  std::size_t finished = 0;
+  std::optional<FrameTimes> host_ms;
+  std::optional<FrameTimes> gpu_ms;
+  std::optional<Estimate> relmse;
+  std::optional<Estimate> elapsed_s;
+  std::optional<Estimate> relmse_x_s;
+  std::uint64_t non_finite = 0;
+  std::size_t at_reference_floor = 0;  // seeds
+};
+
+// In the order of their first runs.
+std::vector<Cell> collect_cells(const std::vector<RunRecord>& records);
+
+}  // namespace qtrace::experiments

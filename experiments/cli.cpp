@@ -1,0 +1,134 @@
+#include "experiments/cli.h"
+
+#include "engine/core/check.h"
+#include "experiments/compare.h"
+#include "experiments/experiment.h"
+#include "experiments/manifest.h"
+#include "experiments/text_table.h"
+#include "experiments/version.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+
+namespace qtrace::experiments {
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> configs;
+  std::vector<std::string> sets;
+  std::string out = "results";
+  std::string device;
+  bool dry_run = false;
+  bool quiet = false;
+};
+
+// Everything is read and checked before the first folder is made.
+int command_run(const RunOptions& options) {
+  Progress progress(Progress::detect(options.quiet));
+  SceneStore scenes;
+  std::vector<Experiment> experiments;
+  for (const std::string& file : options.configs) {
+    Experiment next = load_experiment(file, options.sets);
+    for (const Experiment& other : experiments) {
+      check(other.name != next.name, "{} and {} are both called '{}'; their results would share a folder",
+            other.file.string(), next.file.string(), next.name);
+    }
+    load_scenes(next, scenes, progress);
+    experiments.push_back(std::move(next));
+  }
+  if (options.dry_run) {
+    for (const Experiment& experiment : experiments) {
+      fmt::print("{}", describe_runs(experiment, scenes, options.out));
+    }
+    return 0;
+  }
+  const gpu::Context context(options.device);
+  progress.note("device: " + device_text(context.device()));
+  bool all_finished = true;
+  for (const Experiment& experiment : experiments) {
+    all_finished = run_experiment(experiment, context, scenes, options.out, progress) && all_finished;
+  }
+  return all_finished ? 0 : 1;
+}
+
+int command_devices() {
+  std::vector<std::vector<std::string>> rows;
+  bool usable = false;
+  for (const gpu::DeviceInfo& device : gpu::list_devices()) {
+    usable = usable || device.problem.empty();
+    rows.push_back({std::to_string(device.index), device.renderer, device.gl_version, device.platform,
+                    device.software ? "software" : "hardware",
+                    device.problem.empty() ? "usable" : "not usable: " + device.problem});
+  }
+  fmt::print("{}", plain_table({"index", "renderer", "OpenGL", "platform", "kind", "state"}, rows));
+  check(usable,
+        "no device can be used: OpenGL 4.5 through EGL is needed; Mesa's llvmpipe needs no hardware "
+        "(Debian: libegl-mesa0 and libgl1-mesa-dri)");
+  return 0;
+}
+
+int command_keys() {
+  std::vector<std::vector<std::string>> rows;
+  for (const KeyRow& row : list_knobs(ExperimentKeys{})) {
+    rows.push_back({row.key, row.type, row.default_value, row.unit, row.help});
+  }
+  fmt::print("{}", plain_table({"key", "type", "default", "unit", "meaning"}, rows));
+  return 0;
+}
+
+void add_run_command(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Run all runs of the given experiments");
+  run->add_option("CONFIG", options.configs, "experiment file (JSON); `qtrace keys` lists its keys")
+      ->required();
+  run->add_option("--set", options.sets,
+                  "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
+                  "--set 'sweep.seed=[1,2]'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  run->add_option("--out", options.out, "folder of the results")->capture_default_str();
+  run->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  run->add_flag("--dry-run", options.dry_run, "check everything, list the runs, write nothing");
+  run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
+}
+
+int dispatch(int argc, const char* const* argv) {
+  CLI::App app("qtrace: convergence studies of reinforcement-learned light transport");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", software());
+  RunOptions options;
+  add_run_command(app, options);
+  std::string image, reference;
+  CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
+  compare->add_option("IMAGE", image, "OpenEXR file with R, G, B")->required();
+  compare->add_option("REFERENCE", reference, "OpenEXR file with R, G, B and perhaps variances")->required();
+  CLI::App* devices = app.add_subcommand("devices", "List what this machine can compute on");
+  CLI::App* keys = app.add_subcommand("keys", "List the keys of experiment files");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (compare->parsed()) {
+    fmt::print("{}", compare_files(image, reference));
+    return 0;
+  }
+  if (devices->parsed()) return command_devices();
+  if (keys->parsed()) return command_keys();
+  return command_run(options);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,73 @@
+// Everything that one run can be told: the tracer's settings and what is measured of them.
+#pragma once
+
+#include "engine/core/settings.h"
+#include "experiments/json_knobs.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// After which frames an image is kept and its errors are computed; the last frame always belongs to them.
+struct SnapshotPlan {
+  bool powers_of_two = true;
+  std::vector<int> frames;  // unless powers_of_two; 1-based, increasing
+
+  std::vector<int> resolve(int last_frame) const;
+};
+
+template <>
+struct KnobType<SnapshotPlan> {
+  static std::string describe(const KnobInfo&);
+  static void read(const Json& json, const KnobInfo& info, const std::string& path, SnapshotPlan& plan);
+  static Json write(const SnapshotPlan& plan);
+};
+
+struct ReferenceSettings {
+  int frames = 1024;
+  std::uint32_t seed = 9001;
+};
+
+template <class Visitor>
+void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
+  // Two frames at least: one sample has no variance, so that the reference's noise would be unknown.
+  visit(KnobInfo{"frames", "samples per pixel", "length of the render that errors are measured against", 2,
+                 1e7},
+        reference.frames);
+  visit(KnobInfo{"seed", "", "its seed; must differ from the seeds of the runs", 0,
+                 std::numeric_limits<std::uint32_t>::max()},
+        reference.seed);
+}
+
+struct RunConfig {
+  std::string name;
+  std::string scene;
+  RenderSettings render;
+  int frames = 64;
+  int warmup_frames = 1;
+  SnapshotPlan snapshots;
+  ReferenceSettings reference;
+};
+
+template <class Visitor>
+void visit_knobs(Visitor& visit, RunConfig& config) {
+  visit(KnobInfo{"name", "", "the experiment's name: its folder under the results"}, config.name);
+  visit(KnobInfo{"scene", "path", "glTF file (.gltf or .glb), relative to the config file"}, config.scene);
+  visit_knobs(visit, config.render);
+  visit(KnobInfo{"frames", "frames", "length of the run; a frame is one sample per pixel", 1, 1e6},
+        config.frames);
+  visit(KnobInfo{"warmup_frames", "frames",
+                 "first frames that the median time leaves out; they stay in all totals", 0, 1e6},
+        config.warmup_frames);
+  visit(KnobInfo{"snapshots", "frames", "frames after which image and errors are kept, besides the last"},
+        config.snapshots);
+  visit(KnobInfo{"reference", "", "the long render without learning that errors are measured against"},
+        config.reference);
+}
+
+// Throws Error that names the key where values that are each allowed do not fit together.
+void check_run_config(const RunConfig& config);
+
+}  // namespace qtrace::experiments

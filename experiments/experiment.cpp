@@ -1,0 +1,190 @@
+#include "experiments/experiment.h"
+
+#include "engine/core/check.h"
+#include "experiments/atomic_file.h"
+#include "experiments/manifest.h"
+#include "experiments/run.h"
+#include "experiments/table.h"
+#include "experiments/text_table.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+namespace qtrace::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder of an experiment that is running, rewritten after each run so that nothing is lost.
+class Journal {
+ public:
+  Journal(const Experiment& experiment, const gpu::Context& context, const ReferenceStore& references,
+          fs::path folder)
+      : experiment_(experiment), context_(context), references_(references), folder_(std::move(folder)) {
+    make_folder(folder_);
+    manifest_ = {{"status", "running"},
+                 {"experiment", experiment.name},
+                 {"config_file", experiment.file.string()},
+                 {"config", experiment.config},
+                 {"device", device_json(context.device())},
+                 {"program", program_json()},
+                 {"metrics", metrics_json()},
+                 {"timing", timing_note()},
+                 {"warnings", experiment.warnings},
+                 {"started", utc_now()}};
+    write();
+  }
+
+  void add(RunRecord record) {
+    records_.push_back(std::move(record));
+    write();
+  }
+
+  // Returns whether all runs finished.
+  bool close() {
+    const bool all = std::all_of(records_.begin(), records_.end(),
+                                 [](const RunRecord& record) { return record.status == "finished"; });
+    manifest_["status"] = all ? "finished" : "failed";
+    manifest_["ended"] = utc_now();
+    write();
+    return all;
+  }
+
+  std::string table() const {
+    return experiment_table(experiment_, records_, references_.used(), device_text(context_.device()));
+  }
+
+ private:
+  void write() {
+    Json runs = Json::array();
+    for (std::size_t i = 0; i < experiment_.runs.size(); ++i) {
+      Json run{{"run", experiment_.runs[i].id},
+               {"status", i < records_.size() ? records_[i].status : "waiting"}};
+      if (i < records_.size() && !records_[i].reason.empty()) run["reason"] = records_[i].reason;
+      runs.push_back(std::move(run));
+    }
+    manifest_["runs"] = runs;
+    write_file(folder_ / "summary.csv", csv_text(run_columns(experiment_.axes), records_));
+    write_file(folder_ / "table.md", table());
+    write_json(folder_ / "manifest.json", manifest_);
+  }
+
+  const Experiment& experiment_;
+  const gpu::Context& context_;
+  const ReferenceStore& references_;
+  fs::path folder_;
+  std::vector<RunRecord> records_;
+  Json manifest_;
+};
+
+// Each reference that the runs need, once.
+std::vector<ReferenceSpec> needed_references(const Experiment& experiment, SceneStore& scenes) {
+  std::set<std::string> seen;
+  std::vector<ReferenceSpec> specs;
+  for (const Run& run : experiment.runs) {
+    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.scene_file(run)).hash);
+    if (seen.insert(spec.hash).second) specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
+void plan_work(const Experiment& experiment, SceneStore& scenes, const fs::path& results_root,
+               Progress& progress) {
+  for (const Run& run : experiment.runs) progress.plan(run_work(run.config));
+  for (const ReferenceSpec& spec : needed_references(experiment, scenes)) {
+    if (!ReferenceStore::exists(spec, results_root, experiment.folder())) progress.plan(spec.work());
+  }
+}
+
+std::string result_line(const std::string& label, const RunRecord& record) {
+  if (record.status != "finished") return fmt::format("{}: failed: {}", label, record.reason);
+  return fmt::format("{}: finished, {} frames in {:.3g} s, relMSE {:.3g}", label, record.frames.size(),
+                     record.elapsed_s(), record.final_errors()->relmse);
+}
+
+}  // namespace
+
+void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& progress) {
+  std::set<std::string> said;
+  const auto say = [&](const std::string& warning) {
+    if (!warning.empty() && said.insert(warning).second) progress.warning(warning);
+  };
+  for (const std::string& warning : experiment.warnings) say(warning);
+  for (const Run& run : experiment.runs) {
+    try {
+      const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+      for (const std::string& warning : scene.scene.warnings) say(scene.file.string() + ": " + warning);
+      say(light_warning(scene, run.config));
+    } catch (const Error& error) {
+      fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
+    }
+  }
+}
+
+std::string describe_runs(const Experiment& experiment, SceneStore& scenes, const fs::path& results_root) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Run& run : experiment.runs) {
+    const RenderSettings& render = run.config.render;
+    const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+    rows.push_back({run.id, fmt::format("{} ({} triangles)", scene.scene.name, scene.scene.triangles.size()),
+                    fmt::format("{}x{}", render.width, render.height), std::to_string(run.config.frames),
+                    std::to_string(render.max_bounces), std::string(enum_name(render.sampler)),
+                    std::string(enum_name(render.nee)), std::to_string(render.seed)});
+  }
+  std::string text = fmt::format("{}: {} runs\n", experiment.name, experiment.runs.size());
+  text += plain_table({"run", "scene", "size", "frames", "bounces", "sampler", "nee", "seed"}, rows);
+  for (const ReferenceSpec& spec : needed_references(experiment, scenes)) {
+    const bool there = ReferenceStore::exists(spec, results_root, experiment.folder());
+    text += fmt::format("reference {}: {} frames, {}\n", spec.hash, spec.frames,
+                        there ? "found" : "to be rendered");
+  }
+  return text;
+}
+
+std::optional<fs::path> move_aside(const fs::path& folder) {
+  if (!fs::exists(folder)) return std::nullopt;
+  int number = 1;
+  fs::path aside;
+  do {
+    aside = folder.string() + '.' + std::to_string(number++);
+  } while (fs::exists(aside));
+  std::error_code error;
+  fs::rename(folder, aside, error);
+  check(!error, "{}: earlier results cannot be moved to {}: {}", folder.string(), aside.string(),
+        error.message());
+  return aside;
+}
+
+bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,
+                    const fs::path& results_root, Progress& progress) {
+  const fs::path folder = results_root / experiment.name;
+  make_folder(results_root);
+  if (const auto aside = move_aside(folder)) {
+    progress.note(fmt::format("{}: earlier results are kept as {}", folder.string(), aside->string()));
+  }
+  plan_work(experiment, scenes, results_root, progress);
+  ReferenceStore references(context, results_root, progress);
+  Journal journal(experiment, context, references, folder);
+  for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
+    const Run& run = experiment.runs[i];
+    const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+    const auto reference = [&] {
+      return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
+    };
+    const std::string label = fmt::format("run {}/{} {}", i + 1, experiment.runs.size(), run.id);
+    RunRecord record =
+        execute_run({context, experiment, run, scene, reference, folder / run.id, label}, progress);
+    if (record.status == "finished") {
+      progress.note(result_line(label, record));
+    } else {
+      progress.warning(result_line(label, record));
+    }
+    journal.add(std::move(record));
+  }
+  const bool all_finished = journal.close();
+  fmt::print("{}\nFiles: {}\n", journal.table(), folder.string());
+  return all_finished;
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,31 @@
+// A whole experiment: all runs of a config, and the files about all of them.
+#pragma once
+
+#include "engine/gpu/context.h"
+#include "experiments/experiment_config.h"
+#include "experiments/progress.h"
+#include "experiments/scene_store.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace qtrace::experiments {
+
+// Loads every scene that a run needs and puts out what is strange about them. Throws Error that names the
+// config, the run and the file.
+void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& progress);
+
+// The runs as text: id, scene, size, frames and method of each, then the references that they need.
+std::string describe_runs(const Experiment& experiment, SceneStore& scenes,
+                          const std::filesystem::path& results_root);
+
+// Renames an existing folder to the first free name of folder.1, folder.2, ... and returns that name.
+std::optional<std::filesystem::path> move_aside(const std::filesystem::path& folder);
+
+// Runs everything and writes results_root/<name>; earlier results of that name are moved aside. Prints the
+// table. Failed runs do not stop the others. Returns whether all runs finished.
+bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,
+                    const std::filesystem::path& results_root, Progress& progress);
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,142 @@
+#include "experiments/experiment_config.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <set>
+
+namespace qtrace::experiments {
+namespace {
+
+struct Setting {
+  std::string key;
+  Json value;
+};
+
+Setting parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  check(equals != std::string::npos && equals > 0, "--set {}: must be key=value", text);
+  Setting setting{text.substr(0, equals), text.substr(equals + 1)};
+  try {
+    setting.value = parse_json(text.substr(equals + 1));
+  } catch (const Error&) {
+    // Not JSON, so it stays the text that it is: --set sampler=rl needs no quotes.
+  }
+  return setting;
+}
+
+// Replaces the values of the axis that "sweep.AXIS" names.
+void set_axis(Json& config, const Setting& setting) {
+  const std::string name = setting.key.substr(std::string("sweep.").size());
+  std::vector<std::string> names;
+  if (config.contains("sweep") && config["sweep"].is_array()) {
+    for (Json& axis : config["sweep"]) {
+      if (!axis.is_object() || axis.size() != 1) continue;
+      names.push_back(axis.begin().key());
+      if (names.back() == name) {
+        axis.begin().value() = setting.value;
+        return;
+      }
+    }
+  }
+  fail("--set {}: the sweep has no axis '{}'{}", setting.key, name, suggestion(name, names));
+}
+
+void apply_setting(Json& config, const Setting& setting) {
+  if (setting.key.starts_with("sweep.")) return set_axis(config, setting);
+  const std::vector<std::string> keys = settable_keys(list_knobs(ExperimentKeys{}));
+  check(std::find(keys.begin(), keys.end(), setting.key) != keys.end(), "--set: unknown key '{}'{}",
+        setting.key, suggestion(setting.key, keys));
+  set_path(config, setting.key, setting.value);
+}
+
+void check_not_swept(const Setting& setting, const std::vector<Axis>& axes) {
+  for (const Axis& axis : axes) {
+    for (const AxisValue& value : axis.values) {
+      for (const std::string& path : leaf_paths(value.overrides)) {
+        check(!paths_overlap(setting.key, path),
+              "--set {}: the sweep axis '{}' sets '{}' too; use --set 'sweep.{}=...' to give that axis other "
+              "values",
+              setting.key, axis.name, path, axis.name);
+      }
+    }
+  }
+}
+
+// Keys may be dotted in the file as well; the same key twice is an error in any spelling.
+Json nested(const Json& raw) {
+  if (!raw.is_object()) return raw;  // refused by the reader
+  std::set<std::string> paths;
+  for (const std::string& path : leaf_paths(raw)) {
+    check(paths.insert(path).second, "key '{}' is given twice, nested and dotted; keep one", path);
+  }
+  Json config = Json::object();
+  merge(config, raw);
+  return config;
+}
+
+Run make_run(const SweepPoint& point) {
+  Run run{point.id, point.cell, point.labels, {}};
+  try {
+    read_knobs(point.config, run.config);
+    check_run_config(run.config);
+  } catch (const Error& error) {
+    fail("run '{}': {}", point.id, error.what());
+  }
+  return run;
+}
+
+void check_published(Experiment& experiment) {
+  std::vector<std::string> cells;
+  std::vector<std::string> labels;
+  for (const Run& run : experiment.runs) {
+    cells.push_back(run.cell);
+    labels.insert(labels.end(), run.labels.begin(), run.labels.end());
+  }
+  const auto warn_unless_known = [&](const std::string& name, const std::vector<std::string>& known) {
+    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+    experiment.warnings.push_back(fmt::format("{}: 'published' names '{}', which the sweep does not have{}",
+                                              experiment.file.string(), name, suggestion(name, known)));
+  };
+  for (const auto& [cell, ms] : experiment.published.ms_per_frame.by_cell) warn_unless_known(cell, cells);
+  for (const std::string& label : experiment.published.ratio) warn_unless_known(label, labels);
+}
+
+Experiment build(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  Experiment experiment;
+  experiment.file = file;
+  experiment.config = nested(read_json_file(file));
+  std::vector<Setting> settings;
+  for (const std::string& text : sets) settings.push_back(parse_setting(text));
+  if (experiment.config.is_object()) {
+    for (const Setting& setting : settings) apply_setting(experiment.config, setting);
+  }
+
+  ExperimentKeys keys;
+  read_knobs(experiment.config, keys);
+  for (const Setting& setting : settings) check_not_swept(setting, keys.sweep.axes);
+  experiment.name = keys.run.name;
+  experiment.axes = keys.sweep.axes;
+  experiment.published = keys.published;
+
+  Json base = experiment.config;
+  base.erase("sweep");
+  base.erase("published");
+  for (const SweepPoint& point : expand_sweep(keys.sweep, base)) experiment.runs.push_back(make_run(point));
+  check_published(experiment);
+  return experiment;
+}
+
+}  // namespace
+
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  try {
+    return build(file, sets);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    if (message.starts_with(file.string()) || message.starts_with("--set")) throw;
+    fail("{}: {}", file.string(), message);
+  }
+}
+
+}  // namespace qtrace::experiments

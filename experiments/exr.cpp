@@ -1,0 +1,96 @@
+#include "experiments/exr.h"
+
+#include "engine/core/check.h"
+#include "experiments/atomic_file.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <cstddef>
+
+namespace qtrace::experiments {
+namespace {
+
+constexpr int kMaxSide = 65'536;
+
+// A plane whose first value belongs to the pixel (left, top) of a file. OpenEXR addresses pixels from its
+// own origin, hence the shifted base, which is computed as an integer because it may lie outside the plane.
+Imf::Slice plane_slice(std::vector<float>& plane, const Imath::Box2i& window, std::size_t width) {
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(width * sizeof(float));
+  const std::ptrdiff_t offset =
+      window.min.x * static_cast<std::ptrdiff_t>(sizeof(float)) + window.min.y * row;
+  const auto base = reinterpret_cast<std::intptr_t>(plane.data()) - offset;
+  return {Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float), width * sizeof(float)};
+}
+
+void write_planes(const std::filesystem::path& file, const ExrImage& image) {
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [key, text] : image.metadata) header.insert(key, Imf::StringAttribute(text));
+  Imf::FrameBuffer buffer;
+  ExrImage copy = image;  // OpenEXR takes writable memory even for output
+  for (auto& [name, plane] : copy.channels) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    buffer.insert(name, plane_slice(plane, header.dataWindow(), static_cast<std::size_t>(image.width)));
+  }
+  Imf::OutputFile output(file.c_str(), header);
+  output.setFrameBuffer(buffer);
+  output.writePixels(image.height);
+}
+
+ExrImage read_planes(const std::filesystem::path& file) {
+  Imf::InputFile input(file.c_str());
+  check(input.isComplete(), "the file is truncated");
+  const Imf::Header& header = input.header();
+  const Imath::Box2i window = header.dataWindow();
+  ExrImage image;
+  image.width = window.max.x - window.min.x + 1;
+  image.height = window.max.y - window.min.y + 1;
+  check(image.width > 0 && image.width <= kMaxSide && image.height > 0 && image.height <= kMaxSide,
+        "{}x{} pixels are not between 1 and {} each way", image.width, image.height, kMaxSide);
+  const auto width = static_cast<std::size_t>(image.width);
+  Imf::FrameBuffer buffer;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    if (channel.channel().type == Imf::UINT) continue;
+    check(channel.channel().xSampling == 1 && channel.channel().ySampling == 1,
+          "channel '{}' is subsampled; only full resolution is read", channel.name());
+    std::vector<float>& plane = image.channels[channel.name()];
+    plane.resize(width * static_cast<std::size_t>(image.height));
+    buffer.insert(channel.name(), plane_slice(plane, window, width));
+  }
+  for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+    if (text != nullptr) image.metadata[attribute.name()] = text->value();
+  }
+  input.setFrameBuffer(buffer);
+  input.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const ExrImage& image) {
+  AtomicFile target(file);
+  try {
+    write_planes(target.temporary(), image);
+  } catch (const std::exception& error) {
+    fail("{}: cannot be written: {}", file.string(), error.what());
+  }
+  target.commit();
+}
+
+ExrImage read_exr(const std::filesystem::path& file) {
+  check(std::filesystem::is_regular_file(file), "{}: no such file; an OpenEXR image is needed",
+        file.string());
+  try {
+    return read_planes(file);
+  } catch (const std::exception& error) {
+    fail("{}: cannot be read as an OpenEXR image: {}", file.string(), error.what());
+  }
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,59 @@
+#include "experiments/manifest.h"
+
+#include "experiments/atomic_file.h"
+#include "experiments/metrics.h"
+#include "experiments/version.h"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+
+namespace qtrace::experiments {
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+Json program_json() { return {{"name", "qtrace"}, {"version", version()}, {"commit", commit()}}; }
+
+Json device_json(const gpu::DeviceInfo& device) {
+  return {{"renderer", device.renderer},
+          {"vendor", device.vendor},
+          {"gl_version", device.gl_version},
+          {"platform", device.platform},
+          {"software", device.software}};
+}
+
+Json scene_json(const LoadedScene& scene) {
+  return {{"file", scene.file.string()},
+          {"hash", scene.hash},
+          {"triangles", scene.scene.triangles.size()},
+          {"objects", scene.scene.objects.size()},
+          {"materials", scene.scene.materials.size()},
+          {"warnings", scene.scene.warnings}};
+}
+
+Json metrics_json() {
+  Json metrics = Json::array();
+  for (const MetricDefinition& metric : metric_definitions()) {
+    metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+  }
+  return metrics;
+}
+
+std::string timing_note() {
+  return "Times hold tracing and, for RL, all learning of each frame; building structures, compiling "
+         "shaders, "
+         "readback, metrics and files are outside. host: host clock around a frame until its work is done; "
+         "gpu: "
+         "GL timestamps around the same. Warm-up frames are in totals and not in medians and percentiles.";
+}
+
+std::string device_text(const gpu::DeviceInfo& device) {
+  return fmt::format("{}, OpenGL {}, {}", device.renderer, device.gl_version,
+                     device.software ? "software: computes on the CPU" : "hardware");
+}
+
+void write_json(const std::filesystem::path& file, const Json& json) {
+  write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+}  // namespace qtrace::experiments

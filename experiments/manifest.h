@@ -1,0 +1,27 @@
+// The parts of which manifests are made: who wrote it, when, on what, and how figures are defined.
+#pragma once
+
+#include "engine/gpu/context.h"
+#include "experiments/json.h"
+#include "experiments/scene_store.h"
+
+#include <filesystem>
+#include <string>
+
+namespace qtrace::experiments {
+
+std::string utc_now();  // ISO 8601, seconds
+
+Json program_json();  // version and commit
+Json device_json(const gpu::DeviceInfo& device);
+Json scene_json(const LoadedScene& scene);
+Json metrics_json();        // name, formula and source of each metric
+std::string timing_note();  // one sentence: what the times hold and what they leave out
+
+// "llvmpipe ..., OpenGL ..., software: computes on the CPU".
+std::string device_text(const gpu::DeviceInfo& device);
+
+// Indented, with a final line break; whole or not at all.
+void write_json(const std::filesystem::path& file, const Json& json);
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,116 @@
+#include "experiments/metrics.h"
+
+#include "engine/core/check.h"
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace qtrace::experiments {
+namespace {
+
+double channel_mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3.0; }
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+double squared_error(const glm::dvec3& a, const glm::dvec3& r) { return channel_mean((a - r) * (a - r)); }
+
+double relative_squared_error(const glm::dvec3& a, const glm::dvec3& r) {
+  return channel_mean((a - r) * (a - r) / (r * r + kEpsilon));
+}
+
+double absolute_percentage_error(const glm::dvec3& a, const glm::dvec3& r) {
+  return channel_mean(glm::abs(a - r) / (glm::abs(r) + kEpsilon));
+}
+
+// NaN for no values at all.
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Mean of all but the largest; see kTrimmedShare.
+double trimmed_mean(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto share = static_cast<std::size_t>(std::ceil(kTrimmedShare * static_cast<double>(values.size())));
+  const std::size_t kept = values.size() - std::min(share, values.size() - 1);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept - 1), values.end());
+  values.resize(kept);
+  return mean(values);
+}
+
+}  // namespace
+
+bool ErrorMetrics::at_reference_floor() const {
+  return reference &&
+         (mse <= kReferenceFloor * reference->mse || relmse <= kReferenceFloor * reference->relmse);
+}
+
+ErrorMetrics compare_images(const RadianceImage& image, const RadianceImage& reference) {
+  check(image.width == reference.width && image.height == reference.height,
+        "an image of {}x{} pixels cannot be compared with a reference of {}x{}", image.width, image.height,
+        reference.width, reference.height);
+  ErrorMetrics errors;
+  std::vector<double> squared, relative, percentage, difference;
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    const glm::dvec3 a = image.mean[i];
+    const glm::dvec3 r = reference.mean[i];
+    if (!is_finite(a) || !is_finite(r)) {
+      ++errors.non_finite;
+      continue;
+    }
+    squared.push_back(squared_error(a, r));
+    relative.push_back(relative_squared_error(a, r));
+    percentage.push_back(absolute_percentage_error(a, r));
+    difference.push_back(channel_mean(a - r));
+  }
+  errors.mse = mean(squared);
+  errors.relmse = mean(relative);
+  errors.relmse_trimmed = trimmed_mean(std::move(relative));
+  errors.mape = mean(percentage);
+  errors.bias = mean(difference);
+  errors.reference = reference_noise(reference);
+  return errors;
+}
+
+std::optional<ReferenceNoise> reference_noise(const RadianceImage& reference) {
+  if (reference.samples < 2) return std::nullopt;
+  std::vector<double> absolute, relative;
+  for (std::size_t i = 0; i < reference.pixels(); ++i) {
+    const glm::dvec3 r = reference.mean[i];
+    const glm::dvec3 variance = reference.variance[i];
+    if (!is_finite(r) || !is_finite(variance)) continue;
+    absolute.push_back(channel_mean(variance));
+    relative.push_back(channel_mean(variance / (r * r + kEpsilon)));
+  }
+  return ReferenceNoise{mean(absolute), mean(relative)};
+}
+
+std::vector<MetricDefinition> metric_definitions() {
+  const std::string project = "this project";
+  return {
+      {"mse", "mean((a - r)^2), a: image, r: reference, over pixels and channels", "textbook"},
+      {"relmse", fmt::format("mean((a - r)^2 / (r^2 + {}))", kEpsilon),
+       "Rousselle, Knaus, Zwicker 2011, Adaptive sampling and reconstruction using greedy error "
+       "minimization"},
+      {"relmse_trimmed",
+       fmt::format("relmse without the {:g} % of pixels (rounded up) with the largest error",
+                   kTrimmedShare * 100),
+       project},
+      {"mape", fmt::format("mean(|a - r| / (|r| + {}))", kEpsilon),
+       "Mueller et al. 2019, Neural importance sampling"},
+      {"bias", "mean(a - r)", "textbook"},
+      {"reference_mse", "mean(var(r)), var(r): variance of the reference's mean", project},
+      {"reference_relmse", fmt::format("mean(var(r) / (r^2 + {}))", kEpsilon), project},
+      {"at_reference_floor",
+       fmt::format("mse <= {0} * reference_mse or relmse <= {0} * reference_relmse", kReferenceFloor),
+       project},
+      {"non_finite", "pixels with a NaN or an infinity in image or reference; the means leave them out",
+       project},
+  };
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,53 @@
+// Where a long job stands: on a terminal one line that updates itself, elsewhere plain lines.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace qtrace::experiments {
+
+// "8 s", "3 min 05 s", "2 h 07 min".
+std::string duration_text(double seconds);
+
+class Progress {
+ public:
+  enum class Mode { quiet, lines, live };
+
+  // live if standard error is a terminal, else lines; quiet if asked for.
+  static Mode detect(bool quiet);
+
+  explicit Progress(Mode mode) : mode_(mode) {}
+
+  // Work is counted in pixels times frames, which is what time grows with.
+  void plan(double work) { planned_ += work; }
+
+  // A stage of planned work, which ends with end() or with the next begin(); what it has not done by then
+  // is no longer expected.
+  void begin(const std::string& label, int frames, double work_per_frame);
+  void step(int frame, std::optional<double> relmse = {});
+  void end();
+
+  void note(const std::string& line);     // a line that stays, unless quiet
+  void warning(const std::string& line);  // a line that stays, also if quiet
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds_left(double work) const;
+  void show(const std::string& line, bool live);
+
+  Mode mode_;
+  double planned_ = 0;
+  double done_ = 0;
+  double busy_seconds_ = 0;  // in finished stages
+  Clock::time_point stage_start_;
+  Clock::time_point last_shown_;
+  std::string label_;
+  bool active_ = false;
+  int frames_ = 0;
+  int frame_ = 0;
+  double work_per_frame_ = 0;
+};
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,60 @@
+// What is measured, and the one list of columns for each CSV file.
+#pragma once
+
+#include "engine/tracer/tracer.h"
+#include "experiments/csv.h"
+#include "experiments/experiment_config.h"
+#include "experiments/metrics.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// One frame. Times hold render_frame() alone, learning included; no readback, no metrics, no files.
+struct FrameRecord {
+  int frame = 0;           // 1-based
+  bool is_warmup = false;  // left out of medians, kept in totals
+  double host_ms = 0;      // host clock around the frame and the end of its work
+  double gpu_ms = 0;       // GL timer queries around the frame
+  double elapsed_s = 0;    // sum of host times so far
+  double gpu_elapsed_s = 0;
+  FrameStatistics statistics;
+};
+
+// The running mean after a frame, against the reference.
+struct SnapshotRecord {
+  int frame = 0;  // also the samples per pixel
+  double elapsed_s = 0;
+  double gpu_elapsed_s = 0;
+  ErrorMetrics errors;
+  std::uint64_t non_finite = 0;  // samples so far
+};
+
+// One run; what it did not reach stays empty.
+struct RunRecord {
+  Run run;
+  std::string scene;   // file name without folder and extension
+  std::string status;  // "running", "finished" or "failed"
+  std::string reason;  // of a failure
+  std::string reference_hash;
+  std::string config_hash;
+  double setup_s = 0;  // acceleration, cells, shaders: before the first frame, not in elapsed_s
+  std::vector<FrameRecord> frames;
+  std::vector<SnapshotRecord> snapshots;
+
+  std::vector<double> host_ms() const;  // without warm-up frames
+  std::vector<double> gpu_ms() const;
+  double elapsed_s() const { return frames.empty() ? 0 : frames.back().elapsed_s; }
+  double gpu_elapsed_s() const { return frames.empty() ? 0 : frames.back().gpu_elapsed_s; }
+  FrameStatistics totals() const;
+  const ErrorMetrics* final_errors() const;        // null unless finished
+  std::optional<double> relmse_x_seconds() const;  // inefficiency: final relmse * elapsed_s
+};
+
+std::vector<Column<FrameRecord>> frame_columns();
+std::vector<Column<SnapshotRecord>> snapshot_columns();
+std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes);
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,28 @@
+#include "experiments/run_files.h"
+
+#include "experiments/atomic_file.h"
+#include "experiments/manifest.h"
+
+namespace qtrace::experiments {
+
+RunFiles::RunFiles(std::filesystem::path folder, ExrMetadata metadata)
+    : folder_(std::move(folder)), metadata_(std::move(metadata)) {
+  make_folder(folder_);
+}
+
+void RunFiles::write_first_hit(const FirstHitImage& image) const {
+  write_exr(folder_ / "first_hit.exr", to_exr(image, metadata_));
+}
+
+void RunFiles::write_snapshot(int frame, const RadianceImage& image) const {
+  write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), to_exr(image, metadata_));
+}
+
+void RunFiles::write_tables(const RunRecord& record) const {
+  write_file(folder_ / "frames.csv", csv_text(frame_columns(), record.frames));
+  write_file(folder_ / "convergence.csv", csv_text(snapshot_columns(), record.snapshots));
+}
+
+void RunFiles::write_manifest(const Json& manifest) const { write_json(folder_ / "manifest.json", manifest); }
+
+}  // namespace qtrace::experiments

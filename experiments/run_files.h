@@ -1,0 +1,27 @@
+// The files of one run's folder.
+#pragma once
+
+#include "experiments/exr.h"
+#include "experiments/json.h"
+#include "experiments/records.h"
+
+#include <filesystem>
+
+namespace qtrace::experiments {
+
+class RunFiles {
+ public:
+  // Makes the folder. `metadata` goes into every image.
+  RunFiles(std::filesystem::path folder, ExrMetadata metadata);
+
+  void write_first_hit(const FirstHitImage& image) const;            // first_hit.exr
+  void write_snapshot(int frame, const RadianceImage& image) const;  // frame_000064.exr
+  void write_tables(const RunRecord& record) const;                  // frames.csv and convergence.csv
+  void write_manifest(const Json& manifest) const;                   // manifest.json
+
+ private:
+  std::filesystem::path folder_;
+  ExrMetadata metadata_;
+};
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,25 @@
+// Runs the program as a user does, and keeps what it says.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace qtrace::tests {
+
+struct Outcome {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string out;
+  std::string err;
+};
+
+// Runs QTRACE_BINARY with these arguments in the folder `working`, without a shell.
+Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesystem::path& working);
+
+std::string read_text(const std::filesystem::path& file);
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+// Names of everything below a folder, sorted; to show that nothing was written.
+std::vector<std::string> tree(const std::filesystem::path& folder);
+
+}  // namespace qtrace::tests

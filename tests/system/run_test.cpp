@@ -1,0 +1,237 @@
+// Experiments from end to end: files, repeatability, references, failures.
+#include "tests/system/program.h"
+#include "tests/system/small_scene.h"
+
+#include "experiments/exr.h"
+#include "experiments/json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+namespace qtrace::tests {
+namespace {
+
+using experiments::Json;
+using experiments::parse_json;
+using experiments::read_exr;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Fields by column name, one map per record; quotes and CRLF as in RFC 4180.
+std::vector<std::map<std::string, std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> records(1, std::vector<std::string>(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      if (quoted && i + 1 < text.size() && text[i + 1] == '"') {
+        records.back().back() += text[++i];
+      } else {
+        quoted = !quoted;
+      }
+    } else if (!quoted && c == ',') {
+      records.back().emplace_back();
+    } else if (!quoted && c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') {
+      ++i;
+      if (i + 1 < text.size()) records.emplace_back(1);
+    } else {
+      records.back().back() += c;
+    }
+  }
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::size_t r = 1; r < records.size(); ++r) {
+    EXPECT_EQ(records[r].size(), records[0].size());
+    rows.emplace_back();
+    for (std::size_t i = 0; i < records[0].size(); ++i) rows.back()[records[0][i]] = records[r].at(i);
+  }
+  return rows;
+}
+
+class RunProgram : public testing::Test {
+ protected:
+  RunProgram() { write_small_scene(folder_, "scene"); }
+
+  // Runs a config of this name; extra arguments follow.
+  Outcome run(const std::string& name, const std::string& members,
+              const std::vector<std::string>& more = {}) const {
+    folder_.write(name + ".json", small_config(name, members));
+    std::vector<std::string> arguments{"run", name + ".json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_qtrace(arguments, folder_.path());
+  }
+
+  Json json(const std::string& file) const { return parse_json(folder_.read(file)); }
+
+  TempFolder folder_;
+};
+
+constexpr const char* kMethods =
+    R"("sweep": [{"method": {"NEE, one ray": {"sampler": "bsdf", "nee": "one_ray"}, "RL": {"sampler": "rl"}}},
+                 {"seed": [1, 2]}], )";
+
+TEST_F(RunProgram, WritesEveryFileOfEveryRun) {
+  const Outcome outcome = run("e2e", kMethods);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "device: "));
+  EXPECT_TRUE(contains(outcome.err, "run 4/4 method=rl,seed=2: finished"));
+  EXPECT_TRUE(contains(outcome.out, "NEE, one ray"));
+  EXPECT_EQ(folder_.read("results/e2e/table.md") + "\nFiles: results/e2e\n", outcome.out);
+
+  const auto summary = parse_csv(folder_.read("results/e2e/summary.csv"));
+  ASSERT_EQ(summary.size(), 4U);
+  EXPECT_EQ(summary[0].at("axis:method"), "NEE, one ray");
+  EXPECT_EQ(summary[3].at("run"), "method=rl,seed=2");
+  for (const auto& row : summary) {
+    EXPECT_EQ(row.at("status"), "finished");
+    EXPECT_EQ(row.at("frames"), "4");
+    EXPECT_EQ(row.at("non_finite"), "0");
+    EXPECT_GT(std::stod(row.at("host_ms_median")), 0);
+    EXPECT_GT(std::stod(row.at("relmse")), 0);
+    EXPECT_NEAR(std::stod(row.at("relmse_x_s")), std::stod(row.at("relmse")) * std::stod(row.at("elapsed_s")),
+                1e-12);
+  }
+  for (const auto& row : summary) {
+    const std::string base = "results/e2e/" + row.at("run") + "/";
+    for (const char* file : {"manifest.json", "frames.csv", "convergence.csv", "first_hit.exr",
+                             "frame_000001.exr", "frame_000002.exr", "frame_000004.exr"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder_ / (base + file))) << file;
+    }
+  }
+  for (const std::string& name : tree(folder_.path())) EXPECT_FALSE(contains(name, ".tmp")) << name;
+}
+
+TEST_F(RunProgram, TablesAndManifestsAgree) {
+  ASSERT_EQ(run("agree", kMethods).exit_code, 0);
+  const std::string base = "results/agree/method=rl,seed=2/";
+  const Json manifest = json(base + "manifest.json");
+  EXPECT_EQ(manifest.at("status"), "finished");
+  EXPECT_EQ(manifest.at("config").at("sampler"), "rl");
+  EXPECT_EQ(manifest.at("config").at("rl").at("bins_phi"), 10);
+  EXPECT_EQ(manifest.at("axes").at("method"), "RL");
+  EXPECT_GT(manifest.at("cells").get<int>(), 0);
+  EXPECT_TRUE(manifest.at("device").contains("gl_version"));
+  EXPECT_EQ(json("results/agree/manifest.json").at("status"), "finished");
+  EXPECT_EQ(json("results/agree/manifest.json").at("runs").size(), 4U);
+
+  const auto frames = parse_csv(folder_.read(base + "frames.csv"));
+  ASSERT_EQ(frames.size(), 4U);
+  double elapsed = 0;
+  for (const auto& row : frames) elapsed += std::stod(row.at("host_ms")) / 1e3;
+  EXPECT_EQ(frames[0].at("is_warmup"), "1");
+  EXPECT_EQ(frames[1].at("is_warmup"), "0");
+  EXPECT_EQ(frames[0].at("paths"), "64");
+  EXPECT_NEAR(std::stod(frames[3].at("elapsed_s")), elapsed, 1e-9);
+
+  const auto curve = parse_csv(folder_.read(base + "convergence.csv"));
+  ASSERT_EQ(curve.size(), 3U);
+  EXPECT_EQ(curve[2].at("spp"), "4");
+  EXPECT_EQ(curve[2].at("elapsed_s"), frames[3].at("elapsed_s"));
+  const auto summary = parse_csv(folder_.read("results/agree/summary.csv"));
+  EXPECT_EQ(curve[2].at("relmse"), summary[3].at("relmse"));
+  EXPECT_EQ(manifest.at("config_hash"), summary[3].at("config_hash"));
+
+  const experiments::ExrImage image = read_exr(folder_ / (base + "frame_000004.exr"));
+  EXPECT_EQ(image.metadata.at("spp"), "4");
+  EXPECT_EQ(image.metadata.at("seed"), "2");
+  EXPECT_EQ(image.metadata.at("configHash"), summary[3].at("config_hash"));
+  EXPECT_TRUE(image.channels.contains("variance.B"));
+  EXPECT_TRUE(read_exr(folder_ / (base + "first_hit.exr")).channels.contains("normal.Z"));
+}
+
+TEST_F(RunProgram, TheSameSeedGivesTheSameBitsAndEarlierResultsAreKept) {
+  ASSERT_EQ(run("twice", kMethods).exit_code, 0);
+  const Outcome second = run("twice", kMethods);
+  ASSERT_EQ(second.exit_code, 0);
+  EXPECT_TRUE(contains(second.err, "results/twice: earlier results are kept as results/twice.1"))
+      << second.err;
+  int images = 0;
+  for (const std::string& name : tree(folder_ / "results/twice")) {
+    if (!name.ends_with(".exr")) continue;
+    EXPECT_EQ(folder_.read("results/twice/" + name), folder_.read("results/twice.1/" + name)) << name;
+    ++images;
+  }
+  EXPECT_EQ(images, 16);
+  EXPECT_NE(folder_.read("results/twice/method=rl,seed=1/frame_000004.exr"),
+            folder_.read("results/twice/method=rl,seed=2/frame_000004.exr"));
+  // Errors are against the same reference bits, whether it was rendered or found.
+  const auto curve = [this](const std::string& results) {
+    return parse_csv(folder_.read("results/" + results + "/method=rl,seed=1/convergence.csv"))
+        .back()
+        .at("relmse");
+  };
+  EXPECT_EQ(curve("twice"), curve("twice.1"));
+}
+
+TEST_F(RunProgram, ReferencesAreFoundAgainAndBrokenOnesRenderedAnew) {
+  ASSERT_TRUE(contains(run("ref", "").err, "reference of scene: 8 frames rendered"));
+  std::string name;
+  for (const std::string& file : tree(folder_ / "results/references")) {
+    if (file.ends_with(".exr")) name = file;
+  }
+  const std::string file = "results/references/" + name;
+  const std::string whole = folder_.read(file);
+  EXPECT_FALSE(contains(run("ref", "").err, "rendered"));
+  folder_.write(file, whole.substr(0, whole.size() / 2));
+  const Outcome outcome = run("ref", "");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(contains(outcome.err, "warning: this reference cannot be used and is rendered anew: " + file));
+  EXPECT_EQ(folder_.read(file), whole);
+  // Shipped beside the config: nothing is rendered into the results.
+  folder_.write("references/" + name, whole);
+  std::filesystem::remove_all(folder_ / "results");
+  EXPECT_EQ(run("ref", "").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results/references"));
+  EXPECT_EQ(json("results/ref/run/manifest.json").at("reference").at("origin"), "shipped");
+}
+
+TEST_F(RunProgram, CompareFindsAnImageEqualToItself) {
+  ASSERT_EQ(run("cmp", "", {"--quiet"}).exit_code, 0);
+  const std::string image = "results/cmp/run/frame_000004.exr";
+  const Outcome same = run_qtrace({"compare", image, image}, folder_.path());
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_TRUE(contains(same.out, "relmse              0 ")) << same.out;
+  EXPECT_TRUE(contains(same.out, "0 of 64 pixels"));
+  const Outcome other = run_qtrace({"compare", "results/cmp/run/frame_000001.exr", image}, folder_.path());
+  EXPECT_FALSE(contains(other.out, "relmse              0 "));
+}
+
+TEST_F(RunProgram, ASceneWithoutLightIsBlackAndNoError) {
+  write_small_scene(folder_, "dark", Light::off);
+  const Outcome outcome =
+      run("dark", R"("sweep": [{"scene": ["dark.gltf"]}, {"sampler": ["bsdf", "rl"]}], )");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "warning: dark.gltf: the scene has no light: the image will be black"));
+  for (const char* sampler : {"bsdf", "rl"}) {
+    const std::string base = std::string("results/dark/scene=dark,sampler=") + sampler;
+    for (const auto& [name, plane] : read_exr(folder_ / (base + "/frame_000004.exr")).channels) {
+      for (const float value : plane) EXPECT_EQ(value, 0) << name;
+    }
+    EXPECT_EQ(parse_csv(folder_.read(base + "/convergence.csv")).back().at("relmse"), "0");
+    EXPECT_TRUE(contains(json(base + "/manifest.json").at("warnings").dump(), "no light"));
+  }
+}
+
+TEST_F(RunProgram, AFailedRunDoesNotStopTheOthers) {
+  const Outcome outcome = run("fail", R"("sweep": [{"table": {
+      "too large": {"sampler": "rl", "rl": {"sites_per_object": 100000, "bins_theta": 64, "bins_phi": 64}},
+      "small": {"sampler": "rl", "rl": {"sites_per_object": 4}}}}], )");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err, "run 1/2 table=too-large: failed: ")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "run 2/2 table=small: finished")) << outcome.err;
+  const auto summary = parse_csv(folder_.read("results/fail/summary.csv"));
+  ASSERT_EQ(summary.size(), 2U);
+  EXPECT_EQ(summary[0].at("status"), "failed");
+  EXPECT_NE(summary[0].at("reason"), "");
+  EXPECT_EQ(summary[0].at("relmse"), "");
+  EXPECT_EQ(summary[1].at("status"), "finished");
+  EXPECT_EQ(json("results/fail/table=too-large/manifest.json").at("reason"), summary[0].at("reason"));
+  EXPECT_EQ(json("results/fail/manifest.json").at("status"), "failed");
+  EXPECT_TRUE(contains(outcome.out, "Failed runs:"));
+}
+
+}  // namespace
+}  // namespace qtrace::tests

@@ -1,0 +1,224 @@
+// What a config may say, and how every wrong one is refused.
+#include "engine/core/check.h"
+#include "experiments/experiment_config.h"
+#include "tests/system/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace qtrace::experiments {
+namespace {
+
+// The config of a plain run with `extra` members in front.
+std::string config_text(const std::string& extra) {
+  return "{" + extra + R"("name": "test", "scene": "a.glb", "frames": 8})";
+}
+
+Experiment load(const std::string& text, const std::vector<std::string>& sets = {}) {
+  const tests::TempFolder folder;
+  return load_experiment(folder.write("c.json", text), sets);
+}
+
+std::string error_of(const std::string& text, const std::vector<std::string>& sets = {}) {
+  try {
+    load(text, sets);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Config, DefaultsAreThoseOfTheSettings) {
+  const Experiment experiment = load(config_text(""));
+  ASSERT_EQ(experiment.runs.size(), 1U);
+  const RunConfig& config = experiment.runs[0].config;
+  EXPECT_EQ(config.render, RenderSettings{});
+  EXPECT_EQ(config.frames, 8);
+  EXPECT_EQ(config.warmup_frames, 1);
+  EXPECT_EQ(config.reference.frames, 1024);
+  EXPECT_EQ(experiment.runs[0].id, "run");
+}
+
+TEST(Config, ReadsEveryKindOfValue) {
+  const Experiment experiment = load(config_text(
+      R"("environment": [0, 0.5, 1], "sampler": "uniform", "nee": "two_ray", "seed": 4294967295, "width": 6.4e1,
+         "rl": {"update": "q_learning", "bsdf_fraction": 0.25}, "reference": {"seed": 7},
+         "snapshots": [2, 5],  // a comment
+         "rl.bins_phi": 4, )"));
+  const RunConfig& config = experiment.runs[0].config;
+  EXPECT_EQ(config.render.environment, (std::array<double, 3>{0, 0.5, 1}));
+  EXPECT_EQ(config.render.sampler, Sampler::uniform);
+  EXPECT_EQ(config.render.nee, Nee::two_ray);
+  EXPECT_EQ(config.render.seed, 4294967295U);
+  EXPECT_EQ(config.render.width, 64);
+  EXPECT_EQ(config.render.rl.update, UpdateRule::q_learning);
+  EXPECT_EQ(config.render.rl.bsdf_fraction, 0.25);
+  EXPECT_EQ(config.render.rl.bins_phi, 4);
+  EXPECT_EQ(config.reference.seed, 7U);
+  EXPECT_EQ(config.snapshots.resolve(8), (std::vector<int>{2, 5, 8}));
+}
+
+TEST(Config, SnapshotsEndWithTheLastFrame) {
+  EXPECT_EQ(SnapshotPlan{}.resolve(1), (std::vector<int>{1}));
+  EXPECT_EQ(SnapshotPlan{}.resolve(8), (std::vector<int>{1, 2, 4, 8}));
+  EXPECT_EQ(SnapshotPlan{}.resolve(12), (std::vector<int>{1, 2, 4, 8, 12}));
+  EXPECT_EQ((SnapshotPlan{false, {}}.resolve(3)), (std::vector<int>{3}));
+}
+
+TEST(Config, WrittenKnobsReadBackTheSame) {
+  RunConfig config =
+      load(config_text(R"("snapshots": [3], "sampler": "bsdf", "rl": {"bins_phi": 3}, )")).runs[0].config;
+  const Json json = write_knobs(config);
+  RunConfig again;
+  read_knobs(json, again);
+  EXPECT_EQ(write_knobs(again), json);
+  EXPECT_EQ(again.render, config.render);
+}
+
+struct BadConfig {
+  const char* name;
+  std::string text;
+  const char* message;  // part of it
+};
+
+class BadConfigs : public testing::TestWithParam<BadConfig> {};
+
+TEST_P(BadConfigs, AreRefusedWithFileAndKey) {
+  const std::string error = error_of(GetParam().text);
+  EXPECT_NE(error.find("c.json: "), std::string::npos) << error;
+  EXPECT_NE(error.find(GetParam().message), std::string::npos) << error;
+}
+
+const BadConfig kBadConfigs[] = {
+    {"UnknownKey", config_text(R"("widht": 3, )"), "unknown key 'widht'; did you mean 'width'?"},
+    {"UnknownNestedKey", config_text(R"("rl": {"bins_fi": 3}, )"),
+     "unknown key 'rl.bins_fi'; did you mean 'rl.bins_phi'?"},
+    {"KeyAtTheWrongLevel", config_text(R"("sites_per_object": 3, )"), "did you mean 'rl.sites_per_object'?"},
+    {"NothingNear", config_text(R"("qwertyuiop": 3, )"), "`qtrace keys` lists all keys"},
+    {"DuplicateKey", config_text(R"("width": 3, "width": 4, )"), "key 'width' stands twice"},
+    {"DuplicateNestedKey", config_text(R"("rl": {"bins_phi": 3, "bins_phi": 3}, )"),
+     "'bins_phi' stands twice"},
+    {"NestedAndDotted", config_text(R"("rl": {"bins_phi": 3}, "rl.bins_phi": 4, )"),
+     "'rl.bins_phi' is given twice"},
+    {"TextForNumber", config_text(R"("width": "512", )"),
+     "key 'width' is \"512\" but must be a whole number from 1 to 16384"},
+    {"BoolForNumber", config_text(R"("rl": {"bsdf_fraction": true}, )"),
+     "'rl.bsdf_fraction' is true but must be"},
+    {"FractionForWhole", config_text(R"("width": 3.5, )"), "'width' is 3.5 but must be a whole number"},
+    {"TooSmall", config_text(R"("width": 0, )"), "'width' is 0 but must be a whole number from 1 to 16384"},
+    {"TooLarge", config_text(R"("rl": {"bins_theta": 65}, )"),
+     "'rl.bins_theta' is 65 but must be a whole number from 1 to 64"},
+    {"NumberTooLarge", config_text(R"("rl": {"bsdf_fraction": 1.5}, )"),
+     "'rl.bsdf_fraction' is 1.5 but must be a number from 0 to 1"},
+    {"NegativeSeed", config_text(R"("seed": -1, )"), "'seed' is -1"},
+    {"SeedBeyond32Bits", config_text(R"("seed": 4294967296, )"), "'seed' is 4294967296"},
+    {"NotANumber", config_text(R"("width": NaN, )"), "not valid JSON"},
+    {"BeyondDouble", config_text(R"("rl": {"bsdf_fraction": 1e999}, )"), "not valid JSON"},
+    {"Null", config_text(R"("width": null, )"), "'width' is null"},
+    {"UnknownSampler", config_text(R"("sampler": "bsfd", )"),
+     "'sampler' is \"bsfd\" but must be one of bsdf, uniform, rl; did you mean 'bsdf'?"},
+    {"SamplerOfOtherType", config_text(R"("sampler": 1, )"), "must be one of bsdf, uniform, rl"},
+    {"TwoChannels", config_text(R"("environment": [1, 2], )"),
+     "'environment' is [1,2] but must be a list of 3"},
+    {"NegativeChannel", config_text(R"("environment": [1, 2, -3], )"), "'environment[2]' is -3"},
+    {"GroupThatIsNone", config_text(R"("rl": 3, )"), "'rl' is 3 but must be an object"},
+    {"SnapshotBeyondTheEnd", config_text(R"("snapshots": [9], )"), "frame 9, but the run has only 8 frames"},
+    {"SnapshotZero", config_text(R"("snapshots": [0], )"), "'snapshots[0]' is 0"},
+    {"SnapshotsInDisorder", config_text(R"("snapshots": [4, 4], )"),
+     "must be increasing, but frame 4 follows frame 4"},
+    {"SnapshotWord", config_text(R"("snapshots": "all", )"), "\"powers_of_two\" or a list of frames"},
+    {"AllWarmup", config_text(R"("warmup_frames": 8, )"),
+     "'warmup_frames' is 8 but must be less than 'frames'"},
+    {"ReferenceSeed", config_text(R"("seed": 9001, )"), "'seed' and 'reference.seed' are both 9001"},
+    {"ReferenceOfOneFrame", config_text(R"("reference": {"frames": 1}, )"), "'reference.frames' is 1"},
+    {"NoName", R"({"scene": "a.glb"})", "key 'name' is missing"},
+    {"NoScene", R"({"name": "a"})", "key 'scene' is missing"},
+    {"NameWithFolder", R"({"name": "../a", "scene": "a.glb"})", "must be a plain file name"},
+    {"ReservedName", R"({"name": "references", "scene": "a.glb"})", "where reference images are kept"},
+    {"NotAnObject", "[]", "must be a JSON object, not []"},
+    {"Truncated", R"({"name": "a")", "not valid JSON: parse error at line 1, column 13"},
+    {"Empty", "", "not valid JSON"},
+    {"TooDeep", config_text("\"rl\": " + std::string(40, '[') + std::string(40, ']') + ", "),
+     "nested more than 16 deep"},
+    {"PublishedText", config_text(R"("published": {"ms_per_frame": {"a": "x"}}, )"),
+     "'published.ms_per_frame.a' is \"x\""},
+};
+
+INSTANTIATE_TEST_SUITE_P(Config, BadConfigs, testing::ValuesIn(kBadConfigs),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Config, MissingFileAndFolderAreNamed) {
+  const tests::TempFolder folder;
+  EXPECT_THROW(load_experiment(folder / "none.json"), Error);
+  EXPECT_THROW(load_experiment(folder.path()), Error);
+}
+
+TEST(ConfigSet, ReplacesKeysOfAnyKind) {
+  const Experiment experiment =
+      load(config_text(""), {"frames=4", "sampler=bsdf", "rl.bins_phi=3", "environment=[1,1,1]",
+                             "reference.frames=16", "reference={\"seed\": 5}"});
+  const RunConfig& config = experiment.runs[0].config;
+  EXPECT_EQ(config.frames, 4);
+  EXPECT_EQ(config.render.sampler, Sampler::bsdf);
+  EXPECT_EQ(config.render.rl.bins_phi, 3);
+  EXPECT_EQ(config.render.environment[2], 1);
+  EXPECT_EQ(config.reference.frames, 16);
+  EXPECT_EQ(config.reference.seed, 5U);
+}
+
+TEST(ConfigSet, ReplacesSweepsAndAxes) {
+  const std::string text = config_text(R"("sweep": [{"seed": [1, 2, 3]}], )");
+  EXPECT_EQ(load(text, {"sweep=[]"}).runs.size(), 1U);
+  const Experiment two = load(text, {"sweep.seed=[8, 9]"});
+  ASSERT_EQ(two.runs.size(), 2U);
+  EXPECT_EQ(two.runs[1].config.render.seed, 9U);
+}
+
+TEST(ConfigSet, RefusesWhatItCannotMean) {
+  const std::string text =
+      config_text(R"("sweep": [{"seed": [1]}, {"m": {"a": {"rl": {"bins_phi": 3}}}}], )");
+  EXPECT_EQ(error_of(text, {"framse=3"}), "--set: unknown key 'framse'; did you mean 'frames'?");
+  EXPECT_EQ(error_of(text, {"frames"}), "--set frames: must be key=value");
+  EXPECT_NE(error_of(text, {"seed=3"}).find("--set seed: the sweep axis 'seed' sets 'seed' too"),
+            std::string::npos);
+  EXPECT_NE(error_of(text, {"rl.bins_phi=3"}).find("the sweep axis 'm' sets 'rl.bins_phi' too"),
+            std::string::npos);
+  EXPECT_NE(error_of(text, {"sweep.sed=[1]"}).find("no axis 'sed'; did you mean 'seed'?"), std::string::npos);
+  EXPECT_NE(error_of(text, {"frames=0"}).find("key 'frames' is 0"), std::string::npos);
+}
+
+TEST(ConfigKeys, TableHasEveryKeyOnce) {
+  const std::vector<KeyRow> rows = list_knobs(ExperimentKeys{});
+  std::set<std::string> keys;
+  for (const KeyRow& row : rows) {
+    EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+    EXPECT_FALSE(row.help.empty()) << row.key;
+  }
+  EXPECT_TRUE(keys.contains("rl.bins_phi"));
+  EXPECT_TRUE(keys.contains("reference.frames"));
+  EXPECT_TRUE(keys.contains("sweep"));
+}
+
+TEST(ConfigKeys, NearestKnowsDistances) {
+  EXPECT_EQ(edit_distance("", "abc"), 3U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+  EXPECT_EQ(edit_distance("rl", "rl"), 0U);
+  EXPECT_EQ(nearest("samplre", {"nee", "sampler"}), "sampler");
+  EXPECT_EQ(nearest("zzzzzz", {"nee", "sampler"}), "");
+}
+
+TEST(ConfigShipped, AllConfigsOfTheRepositoryAreValid) {
+  for (const auto& entry : std::filesystem::directory_iterator(QTRACE_SOURCE_DIR "/configs")) {
+    if (entry.path().extension() != ".json") continue;
+    const Experiment experiment = load_experiment(entry.path());
+    EXPECT_EQ(experiment.name, entry.path().stem().string());
+    EXPECT_TRUE(experiment.warnings.empty()) << experiment.warnings.front();
+    for (const auto& run : experiment.runs) {
+      EXPECT_TRUE(std::filesystem::exists(experiment.scene_file(run))) << experiment.scene_file(run);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace qtrace::experiments

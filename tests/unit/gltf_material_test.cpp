@@ -1,0 +1,132 @@
+// Materials.
+#include "tests/unit/gltf_builder.h"
+
+namespace qtrace {
+namespace {
+
+class GltfMaterialTest : public GltfTest {
+ protected:
+  GltfMaterialTest() {
+    gltf.add_triangle();
+    gltf.json["materials"] = {{{"name", "wood"}}};
+    gltf.primitive_json()["material"] = 0;
+  }
+  nlohmann::json& material() { return gltf.json["materials"][0]; }
+  nlohmann::json& pbr() { return material()["pbrMetallicRoughness"]; }
+  nlohmann::json& specular() { return material()["extensions"]["KHR_materials_specular"]; }
+  nlohmann::json& strength() {
+    return material()["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
+  }
+};
+
+void expect_equal(const Material& actual, const Material& expected) {
+  EXPECT_EQ(actual.name, expected.name);
+  EXPECT_EQ(actual.base_color, expected.base_color);
+  EXPECT_EQ(actual.metallic, expected.metallic);
+  EXPECT_EQ(actual.roughness, expected.roughness);
+  EXPECT_EQ(actual.specular, expected.specular);
+  EXPECT_EQ(actual.specular_color, expected.specular_color);
+  EXPECT_EQ(actual.emission, expected.emission);
+  EXPECT_EQ(actual.double_sided, expected.double_sided);
+}
+
+TEST_F(GltfMaterialTest, ReadsEveryFactor) {
+  pbr() = {{"baseColorFactor", {0.25, 0.5, 0.75, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}};
+  specular() = {{"specularFactor", 0}, {"specularColorFactor", {1, 2, 3}}};
+  strength() = 8;
+  material()["emissiveFactor"] = {1, 0.5, 0};
+  material()["doubleSided"] = true;
+  gltf.json["extensionsUsed"] = {"KHR_materials_specular", "KHR_materials_emissive_strength"};
+  gltf.json["extensionsRequired"] = gltf.json["extensionsUsed"];
+  const Scene scene = load();
+  ASSERT_EQ(scene.materials.size(), 1U);
+  expect_equal(scene.materials[0], {.name = "wood",
+                                    .base_color = {0.25F, 0.5F, 0.75F},
+                                    .metallic = 0,
+                                    .roughness = 0.5F,
+                                    .specular = 0,
+                                    .specular_color = {1, 2, 3},
+                                    .emission = {8, 4, 0},
+                                    .double_sided = true});
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(GltfMaterialTest, TakesTheDefaultsOfTheFormat) {
+  material().erase("name");
+  gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive_json());
+  gltf.json["meshes"][0]["primitives"][1].erase("material");
+  const Scene scene = load();
+  ASSERT_EQ(scene.materials.size(), 2U);
+  Material expected;
+  expected.name = "material 0";
+  expect_equal(scene.materials[0], expected);
+  expected.name = "default";
+  expect_equal(scene.materials[1], expected);
+  EXPECT_EQ(scene.triangles.at(0).material, 0U);
+  EXPECT_EQ(scene.triangles.at(1).material, 1U);
+}
+
+TEST_F(GltfMaterialTest, ReadsStrengthsThatNoIntHolds) {
+  strength() = 3000000000;
+  material()["emissiveFactor"] = {1, 0, 0};
+  EXPECT_EQ(load().materials.at(0).emission, glm::vec3(3e9F, 0, 0));
+}
+
+TEST_F(GltfMaterialTest, RefusesFactorsOutOfRange) {
+  const std::vector<std::pair<std::string, nlohmann::json>> factors{
+      {"/pbrMetallicRoughness/baseColorFactor", {0, 1.5, 0, 1}},
+      {"/pbrMetallicRoughness/baseColorFactor", {0, 0, -0.5, 1}},
+      {"/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 2}},
+      {"/pbrMetallicRoughness/metallicFactor", -0.1},
+      {"/pbrMetallicRoughness/metallicFactor", 1.1},
+      {"/pbrMetallicRoughness/roughnessFactor", 2},
+      {"/emissiveFactor", {0, 1.25, 0}},
+      {"/extensions/KHR_materials_emissive_strength/emissiveStrength", -1},
+      {"/extensions/KHR_materials_specular/specularFactor", 1.5},
+      {"/extensions/KHR_materials_specular/specularColorFactor", {0, -2, 0}},
+  };
+  const nlohmann::json good = material();
+  for (const auto& [path, value] : factors) {
+    material() = good;
+    material()[nlohmann::json::json_pointer(path)] = value;
+    expect_error({"material 'wood': " + path.substr(path.rfind('/') + 1) + " is ", "would be right"});
+  }
+  material() = good;
+  pbr()["roughnessFactor"] = nullptr;  // what JSON libraries make of NaN
+  expect_error({"materials[0].pbrMetallicRoughness.roughnessFactor is null; a finite number"});
+  pbr() = {{"baseColorFactor", {1, 1, 1}}};
+  expect_error({"materials[0].pbrMetallicRoughness.baseColorFactor is an array; an array of 4 numbers"});
+}
+
+TEST_F(GltfMaterialTest, WarnsOfTexturesAndNeverReadsThem) {
+  const nlohmann::json texture = {{"index", 0}};
+  gltf.json["images"] = {{{"uri", "../../missing.png"}}, {{"bufferView", 0}, {"mimeType", "image/png"}}};
+  gltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  pbr()["baseColorTexture"] = texture;
+  expect_warning("material 'wood': baseColorTexture is not modelled; the factors alone are used");
+  pbr()["metallicRoughnessTexture"] = {{"index", 1}};
+  for (const char* slot : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+    material()[slot] = texture;
+  specular() = {{"specularTexture", texture}, {"specularColorTexture", texture}};
+  expect_warning(
+      "material 'wood': baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, "
+      "emissiveTexture, specularTexture, specularColorTexture are not modelled; the factors alone are "
+      "used");
+}
+
+TEST_F(GltfMaterialTest, WarnsOfTransparency) {
+  material()["alphaMode"] = "BLEND";
+  expect_warning("material 'wood': alphaMode BLEND is not modelled; the material is opaque");
+  material()["alphaMode"] = "GLASS";
+  expect_error({"materials[0].alphaMode is \"GLASS\"; one of OPAQUE MASK BLEND"});
+}
+
+TEST_F(GltfMaterialTest, MessagesStayOnOneLine) {
+  material()["name"] = "two\nlines";
+  material()["alphaMode"] = "MASK";
+  expect_warning("material 'two?lines': alphaMode MASK is not modelled; the material is opaque");
+  EXPECT_EQ(load().materials.at(0).name, "two\nlines");
+}
+
+}  // namespace
+}  // namespace qtrace

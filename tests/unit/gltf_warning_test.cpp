@@ -1,0 +1,105 @@
+// What a file may hold beside what is modelled: a warning each.
+#include "tests/unit/gltf_builder.h"
+
+namespace qtrace {
+namespace {
+
+class GltfWarningTest : public GltfTest {
+ protected:
+  GltfWarningTest() { gltf.add_triangle(); }
+};
+
+TEST_F(GltfWarningTest, WarnsOfExtensions) {
+  gltf.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_specular"};
+  expect_warning("extension KHR_materials_clearcoat is not modelled; the scene is read without it");
+}
+
+TEST_F(GltfWarningTest, WarnsOfLights) {
+  gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  expect_warning("extension KHR_lights_punctual is not modelled; the scene is read without it");
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "sun"}, {"type", "directional"}}};
+  expect_warning(
+      "light 'sun' is not modelled; KHR_lights_punctual is not supported and emissive materials are the only "
+      "lights");
+}
+
+TEST_F(GltfWarningTest, WarnsOfSkinsAndAnimations) {
+  gltf.json["skins"] = {{{"name", "bones"}, {"joints", {1}}}};
+  gltf.json["nodes"][1]["skin"] = 0;
+  expect_warning("skin 'bones' is not modelled; its meshes keep their bind pose");
+  gltf.json.erase("skins");
+  gltf.json["nodes"][1].erase("skin");
+  gltf.json["animations"] = {{{"name", "walk"}}};
+  expect_warning("animation 'walk' is not modelled; nodes keep their own transforms");
+}
+
+TEST_F(GltfWarningTest, WarnsOfMorphTargetsAndVertexColours) {
+  gltf.primitive_json()["targets"] = {{{"POSITION", 0}}};
+  expect_warning("mesh 'shape': morph targets are not modelled; the base shape is used");
+  gltf.primitive_json().erase("targets");
+  gltf.primitive_json()["attributes"]["COLOR_0"] = 0;
+  expect_warning("mesh 'shape': vertex colours (COLOR_0) are not modelled; they are ignored");
+}
+
+TEST_F(GltfWarningTest, SkipsPointsAndLines) {
+  const std::vector<std::string> names{"points", "lines", "a line loop", "a line strip"};
+  gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive_json());
+  for (const int mode : {kPoints, kLines, kLineLoop, kLineStrip}) {
+    gltf.primitive_json()["mode"] = mode;
+    expect_warning("object 'thing': mesh 'shape' primitive 0 holds " + names[static_cast<std::size_t>(mode)] +
+                   ", which are not modelled; it is skipped");
+    EXPECT_EQ(load().triangles.size(), 1U);
+  }
+  gltf.json["meshes"][0]["primitives"][1]["mode"] = kPoints;
+  expect_error({"the scene has no triangles"});
+}
+
+TEST_F(GltfWarningTest, DropsTrianglesWithoutArea) {
+  gltf.json["meshes"][0]["primitives"] = {
+      gltf.primitive({0, 0, 0, 1, 0, 0, 1, 1e-5F, 0}),  // thin and there
+      gltf.primitive({0, 0, 0, 1, 0, 0, 1, 1e-9F, 0}),  // thinner than float positions are exact
+      gltf.primitive({1, 1, 1, 2, 2, 2, 3, 3, 3}),
+      gltf.primitive({5, 0, 0, 5, 0, 0, 5, 1, 0}),
+  };
+  expect_warning("object 'thing': dropped 3 of 4 triangles for having no area");
+  EXPECT_EQ(load().objects.at(0).triangle_count, 1U);
+  EXPECT_EQ(load().triangles.size(), 1U);
+}
+
+TEST_F(GltfWarningTest, OmitsObjectsWithoutTriangles) {
+  gltf.json["nodes"][1]["scale"] = {0, 0, 0};
+  expect_error({"the scene has no triangles"});
+  gltf.add_node({{"name", "solid"}, {"mesh", 0}});
+  const Scene scene = load();
+  ASSERT_EQ(scene.objects.size(), 1U);
+  EXPECT_EQ(scene.objects[0].name, "solid");
+  EXPECT_EQ(scene.triangles.at(0).object, 0U);
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{"object 'thing': dropped 1 of 1 triangles for having no area",
+                                      "object 'thing' has no triangles and is omitted"}));
+}
+
+TEST_F(GltfWarningTest, ReplacesNormalsThatCannotBeUsed) {
+  gltf.primitive_json()["attributes"]["NORMAL"] = gltf.add_floats("VEC3", {0, 0, 0, 0, 0, 1, 0, 0, 0});
+  expect_warning(
+      "object 'thing': took the face's normal at 2 of 3 corners, where the file's has length zero");
+  EXPECT_EQ(load().triangles.at(0).normal[0], glm::vec3(0, 0, 1));
+  gltf.primitive_json()["attributes"]["NORMAL"] = gltf.add_floats("VEC3", {0, 0.6F, -0.8F, 0, 0, 1, 1, 0, 0});
+  expect_warning(
+      "object 'thing': took the face's normal at 2 of 3 corners, where the file's points behind the face");
+  const Triangle triangle = load().triangles.at(0);
+  for (const glm::vec3& normal : triangle.normal) EXPECT_EQ(normal, glm::vec3(0, 0, 1));
+}
+
+TEST_F(GltfWarningTest, PartlyMappedObjectHasNoUvMap) {
+  gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive_json());
+  gltf.primitive_json()["attributes"]["TEXCOORD_0"] = gltf.add_floats("VEC2", {1, 1, 2, 2, 3, 3});
+  expect_warning(
+      "object 'thing': only some primitives have TEXCOORD_0, so the object counts as having no UV map");
+  const Scene scene = load();
+  EXPECT_FALSE(scene.objects.at(0).has_uv);
+  for (const glm::vec2& uv : scene.triangles.at(0).uv) EXPECT_EQ(uv, glm::vec2(0));
+}
+
+}  // namespace
+}  // namespace qtrace

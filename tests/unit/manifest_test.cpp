@@ -1,0 +1,115 @@
+// Hashes and the parts of manifests.
+#include "experiments/manifest.h"
+#include "experiments/experiment.h"
+#include "experiments/hash.h"
+#include "experiments/progress.h"
+#include "experiments/run.h"
+#include "tests/system/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+namespace qtrace::experiments {
+namespace {
+
+Scene one_triangle() {
+  Scene scene;
+  scene.name = "one";
+  scene.triangles.resize(1);
+  scene.triangles[0].position = {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
+  scene.materials.resize(1);
+  scene.objects.resize(1);
+  return scene;
+}
+
+TEST(ManifestHash, KnowsThePublishedTestVector) {
+  EXPECT_EQ(hash_text(""), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of nothing, seed 0
+}
+
+TEST(ManifestHash, SceneHashIsOfContentAlone) {
+  const Scene scene = one_triangle();
+  Scene same = scene;
+  same.name = "other";
+  same.objects[0].name = "renamed";
+  same.materials[0].name = "renamed";
+  same.warnings = {"w"};
+  EXPECT_EQ(scene_hash(scene), scene_hash(same));
+  std::set<std::string> hashes{scene_hash(scene)};
+  std::vector<Scene> others(6, scene);
+  others[0].triangles[0].position[2].z = 1e-6F;
+  others[1].materials[0].emission.y = 1;
+  others[2].materials[0].double_sided = true;
+  others[3].camera.vertical_fov = 0.5F;
+  others[4].objects[0].has_uv = true;
+  others[5].triangles[0].uv[1].x = 0.5F;
+  for (const Scene& other : others) hashes.insert(scene_hash(other));
+  EXPECT_EQ(hashes.size(), 7U);
+}
+
+TEST(ManifestHash, ConfigHashReplacesTheScenePathByItsContent) {
+  RunConfig config;
+  config.name = "a";
+  config.scene = "a.glb";
+  RunConfig other = config;
+  other.name = "b";
+  other.scene = "folder/b.glb";
+  EXPECT_EQ(config_hash(config, "s"), config_hash(other, "s"));
+  EXPECT_NE(config_hash(config, "s"), config_hash(config, "t"));
+  other.render.rl.bin_floor = 0.2;
+  EXPECT_NE(config_hash(config, "s"), config_hash(other, "s"));
+}
+
+TEST(ManifestHash, CanonicalTextHasOneOrder) {
+  EXPECT_EQ(canonical_text(parse_json(R"({"b": 1, "a": {"d": 2, "c": 0.1}})")),
+            R"({"a":{"c":0.1,"d":2},"b":1})");
+}
+
+TEST(Manifest, TimesAreIsoInUtc) {
+  EXPECT_TRUE(std::regex_match(utc_now(), std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"))) << utc_now();
+}
+
+TEST(Manifest, SoftwareIsSaidPlainly) {
+  gpu::DeviceInfo device;
+  device.renderer = "llvmpipe";
+  device.software = true;
+  EXPECT_NE(device_text(device).find("software: computes on the CPU"), std::string::npos);
+  device.software = false;
+  EXPECT_EQ(device_text(device).find("software"), std::string::npos);
+  EXPECT_EQ(device_json(device).at("renderer"), "llvmpipe");
+}
+
+TEST(Manifest, DurationsReadWell) {
+  EXPECT_EQ(duration_text(8.4), "8 s");
+  EXPECT_EQ(duration_text(185), "3 min 05 s");
+  EXPECT_EQ(duration_text(2 * 3600 + 7 * 60), "2 h 07 min");
+}
+
+TEST(Manifest, ScenesWithoutLightAreWarnedOf) {
+  LoadedScene loaded{"dark.glb", one_triangle(), ""};
+  RunConfig config;
+  EXPECT_NE(light_warning(loaded, config).find("dark.glb: the scene has no light"), std::string::npos);
+  config.render.environment = {0, 0, 0.1};
+  EXPECT_EQ(light_warning(loaded, config), "");
+  config.render.environment = {0, 0, 0};
+  loaded.scene.materials[0].emission = glm::vec3(1, 0, 0);
+  EXPECT_EQ(light_warning(loaded, config), "");
+  loaded.scene.materials.push_back(Material{});
+  loaded.scene.triangles[0].material = 1;  // nothing has the emissive one
+  EXPECT_NE(light_warning(loaded, config), "");
+}
+
+TEST(Manifest, EarlierResultsAreMovedToTheNextFreeName) {
+  const tests::TempFolder folder;
+  EXPECT_FALSE(move_aside(folder / "a").has_value());
+  folder.write("a/x", "1");
+  EXPECT_EQ(move_aside(folder / "a")->filename(), "a.1");
+  folder.write("a/x", "2");
+  EXPECT_EQ(move_aside(folder / "a")->filename(), "a.2");
+  EXPECT_EQ(folder.read("a.1/x"), "1");
+  EXPECT_EQ(folder.read("a.2/x"), "2");
+}
+
+}  // namespace
+}  // namespace qtrace::experiments

@@ -1,0 +1,116 @@
+// Metrics on tiny images, against values worked out by hand.
+#include "experiments/metrics.h"
+#include "engine/core/check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace qtrace::experiments {
+namespace {
+
+// A row of grey pixels.
+RadianceImage grey(const std::vector<double>& values, double variance = 0, std::uint64_t samples = 4) {
+  RadianceImage image{static_cast<int>(values.size()), 1, samples, {}, {}};
+  for (const double value : values) image.mean.emplace_back(value);
+  image.variance.assign(values.size(), glm::dvec3(variance));
+  return image;
+}
+
+TEST(Metrics, TwoGreyPixels) {
+  // a - r: 1, -0.5; r: 1, 2.
+  const ErrorMetrics errors = compare_images(grey({2, 1.5}), grey({1, 2}));
+  EXPECT_DOUBLE_EQ(errors.mse, (1 + 0.25) / 2);
+  EXPECT_DOUBLE_EQ(errors.relmse, (1 / 1.01 + 0.25 / 4.01) / 2);
+  EXPECT_DOUBLE_EQ(errors.mape, (1 / 1.01 + 0.5 / 2.01) / 2);
+  EXPECT_DOUBLE_EQ(errors.bias, 0.25);
+  EXPECT_DOUBLE_EQ(errors.relmse_trimmed, 0.25 / 4.01);  // one of two pixels is dropped, the larger error
+  EXPECT_EQ(errors.non_finite, 0U);
+}
+
+TEST(Metrics, ChannelsAreAveragedWithinAPixel) {
+  RadianceImage image = grey({0});
+  RadianceImage reference = grey({0});
+  image.mean[0] = {1, 2, 3};
+  reference.mean[0] = {1, 1, 0};
+  const ErrorMetrics errors = compare_images(image, reference);
+  EXPECT_DOUBLE_EQ(errors.mse, (0.0 + 1 + 9) / 3);
+  EXPECT_DOUBLE_EQ(errors.relmse, (0 + 1 / 1.01 + 9 / 0.01) / 3);
+  EXPECT_DOUBLE_EQ(errors.mape, (0 + 1 / 1.01 + 3 / 0.01) / 3);
+  EXPECT_DOUBLE_EQ(errors.bias, (0.0 + 1 + 3) / 3);
+}
+
+TEST(Metrics, NegativeReferencesAreMeasuredByTheirSize) {
+  EXPECT_DOUBLE_EQ(compare_images(grey({0}), grey({-1})).mape, 1 / 1.01);
+}
+
+TEST(Metrics, TrimmingDropsATenthOfAPercentRoundedUp) {
+  // 2000 pixels: two are dropped, and three are wrong by far.
+  std::vector<double> values(2000, 1.1);
+  values[7] = values[100] = values[1999] = 101;
+  const ErrorMetrics errors = compare_images(grey(values), grey(std::vector<double>(2000, 1.0)));
+  EXPECT_NEAR(errors.relmse_trimmed, (1997 * 0.01 + 10000) / 1.01 / 1998, 1e-9);
+  // 2001 pixels: three.
+  values.push_back(1.1);
+  const ErrorMetrics more = compare_images(grey(values), grey(std::vector<double>(2001, 1.0)));
+  EXPECT_NEAR(more.relmse_trimmed, 0.01 / 1.01, 1e-12);
+}
+
+TEST(Metrics, TrimmingKeepsASinglePixel) {
+  EXPECT_DOUBLE_EQ(compare_images(grey({2}), grey({1})).relmse_trimmed, 1 / 1.01);
+}
+
+TEST(Metrics, ReferenceNoiseStandsBesideTheError) {
+  const ErrorMetrics errors = compare_images(grey({1, 2}), grey({1, 2}, 0.5));
+  ASSERT_TRUE(errors.reference.has_value());
+  EXPECT_DOUBLE_EQ(errors.reference->mse, 0.5);
+  EXPECT_DOUBLE_EQ(errors.reference->relmse, (0.5 / 1.01 + 0.5 / 4.01) / 2);
+  EXPECT_TRUE(errors.at_reference_floor());
+}
+
+TEST(Metrics, FloorIsThreeTimesTheNoise) {
+  // One pixel, error 1: mse 1, relmse 1 / 1.01; the noise is v and v / 1.01.
+  EXPECT_TRUE(compare_images(grey({2}), grey({1}, 1.0 / 3 + 1e-9)).at_reference_floor());
+  EXPECT_FALSE(compare_images(grey({2}), grey({1}, 1.0 / 3 - 1e-9)).at_reference_floor());
+}
+
+TEST(Metrics, OneSampleHasNoKnownNoise) {
+  const ErrorMetrics errors = compare_images(grey({1}), grey({1}, 0, 1));
+  EXPECT_FALSE(errors.reference.has_value());
+  EXPECT_FALSE(errors.at_reference_floor());
+}
+
+TEST(Metrics, NonFinitePixelsAreCountedAndLeftOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  const ErrorMetrics errors = compare_images(grey({nan, 2, 1}), grey({1, 1, inf}));
+  EXPECT_EQ(errors.non_finite, 2U);
+  EXPECT_DOUBLE_EQ(errors.mse, 1);
+  EXPECT_TRUE(std::isnan(compare_images(grey({nan}), grey({1})).mse));
+  EXPECT_TRUE(std::isnan(compare_images(grey({nan}), grey({1})).relmse_trimmed));
+}
+
+TEST(Metrics, SizesMustAgree) { EXPECT_THROW(compare_images(grey({1}), grey({1, 2})), Error); }
+
+TEST(Metrics, BlackAgainstBlackIsNoError) {
+  const ErrorMetrics errors = compare_images(grey({0, 0}), grey({0, 0}));
+  EXPECT_EQ(errors.relmse, 0);
+  EXPECT_EQ(errors.mape, 0);
+}
+
+TEST(Metrics, DefinitionsStateTheirConstants) {
+  const std::vector<MetricDefinition> metrics = metric_definitions();
+  const auto formula = [&metrics](const std::string& name) {
+    for (const MetricDefinition& metric : metrics) {
+      if (metric.name == name) return metric.formula;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(formula("relmse"), "mean((a - r)^2 / (r^2 + 0.01))");
+  EXPECT_NE(formula("relmse_trimmed").find("0.1 %"), std::string::npos);
+  EXPECT_NE(formula("at_reference_floor").find("3 * reference_relmse"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace qtrace::experiments

@@ -1,0 +1,151 @@
+// Axes, their product, and ids that stay what they are.
+#include "engine/core/check.h"
+#include "experiments/experiment_config.h"
+#include "tests/system/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace qtrace::experiments {
+namespace {
+
+Experiment sweep(const std::string& axes, const std::string& extra = "") {
+  const tests::TempFolder folder;
+  const std::string text =
+      "{\"name\": \"t\", \"scene\": \"s.glb\", \"frames\": 4, " + extra + "\"sweep\": " + axes + "}";
+  return load_experiment(folder.write("c.json", text));
+}
+
+std::vector<std::string> ids(const std::string& axes) {
+  std::vector<std::string> result;
+  for (const Run& run : sweep(axes).runs) result.push_back(run.id);
+  return result;
+}
+
+std::string error_of(const std::string& axes) {
+  try {
+    sweep(axes);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+bool refused(const std::string& axes, const std::string& message) {
+  const std::string error = error_of(axes);
+  EXPECT_NE(error.find(message), std::string::npos) << error;
+  return error != "no error";
+}
+
+TEST(Sweep, IsTheProductOfItsAxesLastFastest) {
+  const Experiment experiment = sweep(R"([
+      {"scene": ["x/simple.glb", "x/occluded.glb"]},
+      {"method": {"NEE, two rays": {"sampler": "bsdf", "nee": "two_ray"},
+                  "RL": {"sampler": "rl", "rl": {"update": "q_learning"}, "rl.bins_phi": 4}}},
+      {"seed": [1, 2]}])");
+  ASSERT_EQ(experiment.runs.size(), 8U);
+  const auto& first = experiment.runs.front();
+  EXPECT_EQ(first.id, "scene=simple,method=nee-two-rays,seed=1");
+  EXPECT_EQ(first.cell, "simple / NEE, two rays");
+  EXPECT_EQ(first.labels, (std::vector<std::string>{"simple", "NEE, two rays", "1"}));
+  EXPECT_EQ(first.config.render.nee, Nee::two_ray);
+  EXPECT_EQ(experiment.runs[1].id, "scene=simple,method=nee-two-rays,seed=2");
+  const auto& last = experiment.runs.back();
+  EXPECT_EQ(last.id, "scene=occluded,method=rl,seed=2");
+  EXPECT_EQ(last.config.scene, "x/occluded.glb");
+  EXPECT_EQ(last.config.render.rl.update, UpdateRule::q_learning);
+  EXPECT_EQ(last.config.render.rl.bins_phi, 4);
+  EXPECT_EQ(last.config.render.rl.bins_theta, 10);
+  EXPECT_EQ(last.config.render.seed, 2U);
+}
+
+TEST(Sweep, IdsOfOldValuesStayWhenValuesAreAdded) {
+  const std::vector<std::string> before = ids(R"([{"rl.sites_per_object": [10, 100]}, {"seed": [1]}])");
+  const std::vector<std::string> after =
+      ids(R"([{"rl.sites_per_object": [5, 10, 50, 100]}, {"seed": [7, 1]}])");
+  for (const std::string& id : before) {
+    EXPECT_NE(std::find(after.begin(), after.end(), id), after.end()) << id;
+  }
+  EXPECT_EQ(before.front(), "rl.sites_per_object=10,seed=1");
+}
+
+TEST(Sweep, NumbersKeepTheirTextInIds) {
+  EXPECT_EQ(ids(R"([{"rl.cell_normal_threshold": [-1, 0.866, 1]}])"),
+            (std::vector<std::string>{"rl.cell_normal_threshold=-1", "rl.cell_normal_threshold=0.866",
+                                      "rl.cell_normal_threshold=1"}));
+}
+
+TEST(Sweep, GroupsMayBeEmptyAndOverrideNestedKeys) {
+  const Experiment experiment =
+      sweep(R"([{"m": {"base": {}, "short": {"reference.frames": 8, "reference": {"seed": 3}}}}])",
+            R"("reference": {"frames": 32, "seed": 5}, )");
+  EXPECT_EQ(experiment.runs[0].config.reference.frames, 32);
+  EXPECT_EQ(experiment.runs[0].config.reference.seed, 5U);
+  EXPECT_EQ(experiment.runs[1].config.reference.frames, 8);
+  EXPECT_EQ(experiment.runs[1].config.reference.seed, 3U);
+}
+
+TEST(Sweep, RefusesAxesThatAreNone) {
+  EXPECT_TRUE(refused("{}", "key 'sweep' is {} but must be a list of axes"));
+  EXPECT_TRUE(refused("[3]", "'sweep[0]' is 3 but must be an object with one key"));
+  EXPECT_TRUE(refused(R"([{"seed": [1], "nee": ["none"]}])", "must be an object with one key"));
+  EXPECT_TRUE(refused(R"([{"seed": 1}])", "sweep axis 'seed' is 1 but must be"));
+  EXPECT_TRUE(refused(R"([{"seed": []}])", "sweep axis 'seed' has no values"));
+  EXPECT_TRUE(refused(R"([{"m": {"a": 3}}])", "group 'a' of sweep axis 'm' is 3 but must be an object"));
+}
+
+TEST(Sweep, RefusesUnknownKeys) {
+  EXPECT_TRUE(refused(R"([{"sed": [1]}])", "unknown key 'sed'; did you mean 'seed'?"));
+  EXPECT_TRUE(refused(R"([{"m": {"a": {"smapler": "rl"}}}])",
+                      "group 'a' of sweep axis 'm' sets the unknown key 'smapler'; did you mean 'sampler'?"));
+  EXPECT_TRUE(refused(R"([{"name": ["a", "b"]}])", "belongs to the whole experiment"));
+}
+
+TEST(Sweep, RefusesRunsThatCouldNotBeToldApart) {
+  EXPECT_TRUE(refused(R"([{"seed": [1, 1]}])", "has the value 1 twice"));
+  EXPECT_TRUE(refused(R"([{"width": [64, 64.0]}])", "has the value 64.0 twice"));
+  EXPECT_TRUE(
+      refused(R"([{"m": {"RL!": {}, "rl": {}}}])", "'RL!' and 'rl' would have the same folder name 'rl'"));
+  EXPECT_TRUE(refused(R"([{"scene": ["a/s.glb", "b/s.glb"]}])", "would have the same folder name 's'"));
+  EXPECT_TRUE(refused(R"([{"m": {"!!": {}}}])", "'!!' needs letters or digits"));
+  EXPECT_TRUE(refused(R"([{"seed": [1]}, {"seed": [2]}])", "two sweep axes are called 'seed'"));
+  EXPECT_TRUE(refused(R"([{"seed": [1]}, {"m": {"a": {"seed": 2}}}])", "both set 'seed'"));
+  EXPECT_TRUE(
+      refused(R"([{"rl.bins_phi": [1]}, {"m": {"a": {"rl": {"bins_phi": 2}}}}])", "both set 'rl.bins_phi'"));
+}
+
+TEST(Sweep, ErrorsNameTheRun) {
+  EXPECT_TRUE(
+      refused(R"([{"seed": [1, 9001]}])", "run 'seed=9001': keys 'seed' and 'reference.seed' are both 9001"));
+  EXPECT_TRUE(refused(R"([{"width": [64, "wide"]}])", "run 'width=wide': key 'width' is \"wide\""));
+  EXPECT_TRUE(refused(R"([{"m": {")" + std::string(220, 'x') + R"(": {}}}])", "an id of 222 bytes"));
+}
+
+TEST(Sweep, TooManyRunsAreRefusedBeforeTheyAreMade) {
+  std::string seeds;
+  for (int i = 0; i < 1000; ++i) seeds += (i == 0 ? "" : ",") + std::to_string(i + 1);
+  EXPECT_TRUE(
+      refused("[{\"seed\": [" + seeds + "]}, {\"width\": [" + seeds + "]}]", "more than 100000 runs"));
+}
+
+TEST(Sweep, SlugsAreSafeFileNames) {
+  EXPECT_EQ(slug("RL + NEE, one ray"), "rl-nee-one-ray");
+  EXPECT_EQ(slug("../etc/passwd"), "etc-passwd");
+  EXPECT_EQ(slug("a_b.c"), "a_b.c");
+  EXPECT_EQ(slug("é"), "");
+}
+
+TEST(Sweep, PublishedFiguresOfUnknownCellsAreWarnedOf) {
+  const Experiment experiment =
+      sweep(R"([{"m": {"RL": {}, "NEE": {"sampler": "bsdf"}}}])",
+            R"("published": {"ms_per_frame": {"RL": 3, "NE": 4}, "ratio": ["NEE", "RL"]}, )");
+  ASSERT_EQ(experiment.warnings.size(), 1U);
+  EXPECT_NE(experiment.warnings[0].find("'NE', which the sweep does not have; did you mean 'NEE'?"),
+            std::string::npos);
+  EXPECT_EQ(*experiment.published.ms_per_frame.find("RL"), 3);
+  EXPECT_EQ(experiment.published.ms_per_frame.find("none"), nullptr);
+}
+
+}  // namespace
+}  // namespace qtrace::experiments
