@@ -1,18 +1,12 @@
 #include "experiments/version.h"
 
-// CMake defines both for this file alone; builds without it or without git still work.
-#ifndef QTRACE_VERSION
-#define QTRACE_VERSION "unknown"
-#endif
-#ifndef QTRACE_COMMIT
-#define QTRACE_COMMIT "unknown"
-#endif
+#include <qtrace_commit.h>  // written by every build, see cmake/write_commit.cmake
 
 namespace qtrace::experiments {
 
 std::string version() { return QTRACE_VERSION; }
 
-std::string commit() { return *QTRACE_COMMIT == '\0' ? "unknown" : QTRACE_COMMIT; }
+std::string commit() { return QTRACE_COMMIT; }
 
 std::string software() { return "qtrace " + version() + " (" + commit() + ")"; }
 

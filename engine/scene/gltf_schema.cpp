@@ -15,7 +15,7 @@ using nlohmann::json;
 // Words of digits stand for integers, others for strings.
 bool is_one_of(std::string_view words, const json& value) {
   const bool are_integers = words.front() >= '0' && words.front() <= '9';
-  if (are_integers ? !value.is_number_unsigned() : !value.is_string()) return false;
+  if (!are_integers && !value.is_string()) return false;
   const std::string spelling = are_integers ? value.dump() : value.get<std::string>();
   while (!words.empty()) {
     const std::size_t end = std::min(words.find(' '), words.size());
