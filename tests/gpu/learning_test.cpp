@@ -80,6 +80,45 @@ TEST_F(Learning, SaturatesInsteadOfWrapping) {
   EXPECT_NEAR(table_->values()[0] / (limit / kTargets), 1, 1e-5);
 }
 
+// p(bin) = (1 - floor) Q / sum of Q + floor / bins; uniform where nothing was learned.
+TEST_F(Learning, BinsAreDrawnInProportionToTheirValues) {
+  const std::size_t bins = 4;
+  std::vector<float> values(table_->values().size(), 0.0F);
+  const std::vector<float> taught{1, 5, 0, 2};
+  std::copy(taught.begin(), taught.end(), values.begin() + 2 * bins);
+  table_->set_values(values);
+  const auto drawn = probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+                                      "result = vec4(bin_probability(index / 4u, index % 4u));",
+                                      static_cast<std::uint32_t>(values.size()), defines_);
+  const double floor = settings_.rl.bin_floor;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_taught = i / bins == 2;
+    const double expected = is_taught ? (1 - floor) * taught[i % bins] / 8 + floor / bins : 1.0 / bins;
+    EXPECT_NEAR(drawn[i].x, expected, 1e-6) << i;
+  }
+}
+
+// With the same radiance L from everywhere, expected SARSA expects rho L back from a Lambert surface: by the
+// prepared irradiance, and by the quadrature over bins that scenes with glossy materials use.
+TEST_F(Learning, ExpectationOfAConstantTableIsReflectanceTimesRadiance) {
+  for (const bool glossy : {false, true}) {
+    SCOPED_TRACE(glossy ? "quadrature" : "prepared");
+    Scene scene = scene_;
+    if (glossy) scene.materials[1].metallic = 1;
+    const gpu::SceneBuffers buffers(scene, build_median_bvh(scene, 4));
+    buffers.bind();
+    const gpu::Defines defines = shader_defines(settings_, buffers.features());
+    table_->set_values(std::vector<float>(table_->values().size(), 3.0F));
+    const auto next =
+        probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
+                         "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+                         "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+                         "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));",
+                         1, defines);
+    EXPECT_NEAR(next[0].x, 0.8 * 3, 1e-4);
+  }
+}
+
 TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb");
   RenderSettings settings;
