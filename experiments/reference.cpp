@@ -30,6 +30,15 @@ bool all_finite(const std::vector<glm::dvec3>& pixels) {
   return true;
 }
 
+constexpr const char* kNonFinite = "nonFinite";  // EXR attribute
+
+// Kept with the image, so that a reference found later does not hide them.
+std::uint64_t count_non_finite(const fs::path& file) {
+  const ExrImage exr = read_exr(file);
+  const auto found = exr.metadata.find(kNonFinite);
+  return found == exr.metadata.end() ? 0 : std::stoull(found->second);
+}
+
 Json sidecar(const ReferenceSpec& spec, const LoadedScene& scene, const RadianceImage& image, double seconds,
              const gpu::DeviceInfo& device) {
   const auto noise = reference_noise(image).value_or(ReferenceNoise{});
@@ -125,6 +134,11 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
     reference.image = read_reference(reference.file, spec);
     reference.origin = "rendered";
   }
+  reference.non_finite = count_non_finite(reference.file);
+  if (reference.non_finite > 0) {
+    progress_.warning(fmt::format("{}: {} samples of this reference were not finite and count as 0 in it",
+                                  reference.file.string(), reference.non_finite));
+  }
   reference.noise = reference_noise(reference.image).value_or(ReferenceNoise{});
   return reference;
 }
@@ -134,9 +148,11 @@ void ReferenceStore::render(const ReferenceSpec& spec, const LoadedScene& scene,
   const auto start = std::chrono::steady_clock::now();
   progress_.begin(fmt::format("reference of {}", scene.scene.name), spec.frames, spec.work() / spec.frames);
   Tracer tracer(context_, scene.scene, spec.settings);
+  std::uint64_t non_finite = 0;
   for (int frame = 1; frame <= spec.frames; ++frame) {
     tracer.render_frame();
     context_.finish();
+    non_finite += tracer.last_frame_statistics().non_finite;
     progress_.step(frame);
   }
   const RadianceImage image = tracer.radiance();
@@ -147,6 +163,7 @@ void ReferenceStore::render(const ReferenceSpec& spec, const LoadedScene& scene,
   progress_.end();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_exr(file, to_exr(image, {{"referenceHash", spec.hash},
+                                 {kNonFinite, std::to_string(non_finite)},
                                  {"seed", std::to_string(spec.settings.seed)},
                                  {"software", software()}}));
   write_json(fs::path(file).replace_extension(".json"),

@@ -42,6 +42,7 @@ struct Reference {
   std::string origin;          // "rendered", "found" or "shipped"
   RadianceImage image;
   ReferenceNoise noise;
+  std::uint64_t non_finite = 0;  // samples that were not finite and count as 0 in it
 };
 
 // Looks in the results first, then among the references that are shipped beside a config.

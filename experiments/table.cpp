@@ -123,6 +123,9 @@ std::string reference_lines(const std::map<std::string, Reference>& references) 
         reference.scene, reference.spec.frames, settings.width, settings.height, enum_name(settings.sampler),
         enum_name(settings.nee), settings.seed, reference.origin, reference.noise.relmse, reference.noise.mse,
         hash);
+    if (reference.non_finite > 0) {
+      lines += fmt::format("  ({} samples of it were not finite and count as 0)\n", reference.non_finite);
+    }
   }
   return lines;
 }

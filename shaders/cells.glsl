@@ -27,17 +27,20 @@ Cell find_cell(Surface s) {
   float nearest = INFINITY;
   uint nearest_site = site;
   bool more = last != site - 1u;
+  bool any_sites = more;
   do {
-    for (uint i = 0u; i < 4u; ++i) {
-      uint candidate = min(site + i, last);
-      float distance2 = more ? site_distance2(s, candidate) : INFINITY;
-      nearest_site = distance2 < nearest ? candidate : nearest_site;
-      nearest = min(nearest, distance2);
+    if (more) {
+      for (uint i = 0u; i < 4u; ++i) {
+        uint candidate = min(site + i, last);
+        float distance2 = site_distance2(s, candidate);
+        nearest_site = distance2 < nearest ? candidate : nearest_site;
+        nearest = min(nearest, distance2);
+      }
+      site += 4u;
+      more = site <= last;
     }
-    site += 4u;
-    more = more && site <= last;
   } while (more);
-  loop_was_cut = loop_was_cut || more;
+  loop_was_cut = loop_was_cut || (any_sites && site <= last);
 
   Cell cell = Cell(NO_CELL, tangent_of(s.normal));
   if (nearest < INFINITY) {

@@ -16,12 +16,12 @@ layout(std430, binding = BINDING_NEXT_VALUES) restrict writeonly buffer NextValu
 // With alpha = 1 / (1 + visits(cell, bin)) (the report, section 4.3.2) a value is the mean of its targets:
 // the m targets of a frame, one after the other, end at (visits Q + their sum) / (visits + m), in any order.
 void apply_targets(uint entry) {
-  uint targets = target_sums[entry].count;
+  uint targets = target_sums[entry].count & ~TARGET_SATURATED;
   if (targets == 0u) return;
   uint high = target_sums[entry].high;
   float low = float(target_sums[entry].low);
   // What a full sum holds beyond the limit depends on the order of threads; the limit does not.
-  if (high >= TARGET_SATURATED) {
+  if ((target_sums[entry].count & TARGET_SATURATED) != 0u) {
     count(STATISTIC_SATURATED, targets);
     high = TARGET_SATURATED;
     low = 0.0;

@@ -1,4 +1,5 @@
 // Emitting triangles, and points on them.
+#include "random.glsl"
 #include "surface.glsl"
 
 struct LightSample {
@@ -10,11 +11,13 @@ struct LightSample {
   uint index;
 };
 
-// Walker's alias method: one look-up whatever the number of lights.
-uint choose_light(float u) {
-  float scaled = u * float(parameters.path.z);
-  uint light = min(uint(scaled), parameters.path.z - 1u);
-  return scaled - float(light) < lights[light].vertex.w ? light : lights[light].link.x;
+// Walker's alias method: one look-up whatever the number of lights. The product of word and count holds the
+// slot in its high word and the fraction in its low one, so that no digit serves twice.
+uint choose_light(uint word) {
+  uint light;
+  uint fraction;
+  umulExtended(word, parameters.path.z, light, fraction);
+  return fraction <= lights[light].link.z ? light : lights[light].link.x;
 }
 
 // Density per solid angle, seen from distance `t` under `direction`, of the point sampling below.
@@ -24,11 +27,12 @@ float light_pdf(uint light, float t, vec3 direction) {
 }
 
 // A point uniform on a chosen triangle; pdf 0 where it cannot send light here.
-LightSample sample_light(Surface s, vec3 u) {
-  uint index = choose_light(u.x);
-  float root = sqrt(u.y);
-  vec3 point = lights[index].vertex.xyz + root * (1.0 - u.z) * lights[index].edge1.xyz +
-               root * u.z * lights[index].edge2.xyz;
+LightSample sample_light(Surface s, uvec4 bits) {
+  uint index = choose_light(bits.x);
+  float root = sqrt(to_unit(bits.y));
+  float along = to_unit(bits.z);
+  vec3 point = lights[index].vertex.xyz + root * (1.0 - along) * lights[index].edge1.xyz +
+               root * along * lights[index].edge2.xyz;
   vec3 to_point = point - s.position;
   float t = length(to_point);
   vec3 normal = lights[index].normal.xyz;
@@ -40,8 +44,9 @@ LightSample sample_light(Surface s, vec3 u) {
   result.radiance = lit ? lights[index].radiance.rgb : vec3(0.0);
   result.pdf = lit ? light_pdf(index, t, result.direction) : 0.0;
   result.origin = ray_origin(s, result.direction);
-  // The segment ends off the light on the side that is looked at, by the rule that rays start by.
-  float offset = lights[index].edge1.w * (facing < 0.0 ? -1.0 : 1.0);
+  // The segment ends off the light on the side that is looked at, by what the test at t = 1 can round off: it
+  // grows with the coordinates of either end and with the distance.
+  float offset = max(max(lights[index].edge1.w, s.offset), OFFSET_FRACTION * t) * (facing < 0.0 ? -1.0 : 1.0);
   result.segment = point + offset * normal - result.origin;
   result.index = index;
   return result;

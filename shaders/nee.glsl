@@ -12,7 +12,7 @@ float power_heuristic(float pdf, float other) {
 
 // One light sample, weighted against the path's own sampler, which meets the same lights by its next ray.
 vec3 direct_light(Event e, RandomKey key, uint block, inout uint rays) {
-  LightSample light = sample_light(e.surface, random_units(key, block + BLOCK_LIGHT).xyz);
+  LightSample light = sample_light(e.surface, random_bits(key, block + BLOCK_LIGHT));
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
   vec3 result = vec3(0.0);
   if (light.pdf > 0.0 && reflected != vec3(0.0)) {
@@ -34,7 +34,7 @@ float emission_weight(Surface s, float t, vec3 direction, float path_pdf) {
 // The report's: a light sample and a BSDF sample towards the same light (an object), power heuristic, both
 // tested by a closest hit. The path's own rays count no emission. Environment is met by the BSDF sample.
 vec3 direct_light(Event e, RandomKey key, uint block, inout uint rays) {
-  LightSample light = sample_light(e.surface, random_units(key, block + BLOCK_LIGHT).xyz);
+  LightSample light = sample_light(e.surface, random_bits(key, block + BLOCK_LIGHT));
   float share = lights[light.index].normal.w;
   vec3 result = vec3(0.0);
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;

@@ -22,12 +22,16 @@ uint choose_bin(uint cell, uint word) {
   uint first = cell * uint(BINS);
   uint low = 0u;
   uint high = uint(BINS);  // the answer lies in [low, high)
+  bool searching = true;
   do {
-    uint middle = (low + high) >> 1u;
-    bool right = bin_starts[first + middle] <= word;
-    low = right ? middle : low;
-    high = right ? high : middle;
-  } while (high - low > 1u);
+    if (searching) {
+      uint middle = (low + high) >> 1u;
+      bool right = bin_starts[first + middle] <= word;
+      low = right ? middle : low;
+      high = right ? high : middle;
+      searching = high - low > 1u;
+    }
+  } while (searching);
   loop_was_cut = loop_was_cut || high - low > 1u;
   return low;
 }
@@ -65,10 +69,12 @@ bool gather_target(uint entry, float target) {
   uint high = uint(units * (1.0 / 4294967296.0));
   uint low = uint(units - float(high) * 4294967296.0);
   atomicAdd(target_sums[entry].count, 1u);
-  if (target_sums[entry].high < TARGET_SATURATED) {
-    uint before = atomicAdd(target_sums[entry].low, low);
-    if (before + low < before) ++high;
-    if (high != 0u) atomicAdd(target_sums[entry].high, high);
+  uint before_low = atomicAdd(target_sums[entry].low, low);
+  if (before_low + low < before_low) ++high;
+  if (high != 0u) {
+    // One step is far below TARGET_SATURATED: some add of any order crosses it, and the flag stays.
+    uint before_high = atomicAdd(target_sums[entry].high, high);
+    if (before_high + high >= TARGET_SATURATED) atomicOr(target_sums[entry].count, TARGET_SATURATED);
   }
   return target > TARGET_LIMIT;
 }

@@ -32,12 +32,12 @@ struct Material {      // glTF metallic-roughness
 
 // An emitting triangle. Chosen in proportion to its power by Walker's alias method.
 struct Light {
-  vec4 vertex;    // xyz: first vertex, w: alias threshold in [0, 1]
+  vec4 vertex;    // xyz: first vertex
   vec4 edge1;     // w: length by which shadow rays end off the light
   vec4 edge2;     // w: probability of choosing it / its area (per area)
   vec4 normal;    // xyz: unit, out of the front face, w: probability of choosing any light of its object
   vec4 radiance;  // rgb, w: 1 where the back face emits too
-  uvec4 link;     // x: alias, y: object
+  uvec4 link;     // x: alias, y: object, z: alias threshold, as a part of 2^32
 };
 
 // Centre of a Voronoi cell.
@@ -126,9 +126,9 @@ const uint LEAF_BITS = 4u;
 
 // 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it hold 1.7e13.
 const float TARGET_UNIT = 1.0f / 1048576.0f;
-// One target is clamped here (2^28): 32,768 of them fit between TARGET_SATURATED and the end of the range.
+// One target is clamped here (2^28): as one step, far below TARGET_SATURATED.
 const float TARGET_LIMIT = 268435456.0f;
-// A sum whose high word has reached this takes no more, and counts as this.
+// A sum whose high word has reached this counts as this; the same bit of its count then stays set.
 const uint TARGET_SATURATED = 0x80000000u;
 
 // Statistics of a frame: 64-bit counters, low and high word. The last ones stay over all frames.
@@ -144,5 +144,11 @@ const uint STATISTIC_PER_FRAME = 8u;
 const uint STATISTIC_ALL_NON_FINITE = 8u;
 const uint STATISTIC_LOOPS_CUT = 9u;
 const uint STATISTIC_COUNT = 10u;
-// Behind the counters: where non-finite samples were, x | y << 16 and frame, and where a loop was cut.
 const uint MAX_LOCATIONS = 64u;
+
+struct Statistics {
+  uvec2 cut_pixel;                     // one of those where a loop was cut
+  uvec2 unused;
+  uvec4 locations[MAX_LOCATIONS];      // of non-finite samples: x, y, frame
+  uint counters[2u * STATISTIC_COUNT];  // low and high words
+};

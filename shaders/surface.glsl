@@ -27,7 +27,9 @@ Surface surface_at(Hit hit, vec3 direction) {
   s.material = floatBitsToUint(n0.w);
   s.object = floatBitsToUint(n1.w);
   s.light = floatBitsToUint(n2.w);
-  vec3 face = normalize(cross(edge1, edge2));
+  // Scaled first: the product of two edges would leave the range of a float at 1e-19 and 1e19 already.
+  float scale = 1.0 / max(max_component(abs(edge1)), max_component(abs(edge2)));
+  vec3 face = normalize(cross(edge1 * scale, edge2 * scale));
   s.back = dot(face, direction) > 0.0;
   float side = s.back ? -1.0 : 1.0;
   s.geometric_normal = side * face;

@@ -28,7 +28,7 @@ struct Bvh {
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
 
-// `leaf_size`: most triangles of a leaf, 1..15. An empty scene gives one empty leaf.
+// `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.
 Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size);
 
 }  // namespace qtrace

@@ -13,6 +13,7 @@ enum class Nee { none, one_ray, two_ray };
 enum class UpdateRule { expected_sarsa, q_learning };
 enum class LearningRate { visits_per_bin };
 enum class SitePlacement { uv, area };
+enum class InitialTable { zero, random };
 
 template <>
 struct EnumNames<Sampler> {
@@ -31,6 +32,10 @@ struct EnumNames<LearningRate> {
   static constexpr std::array<std::string_view, 1> values{"visits_per_bin"};
 };
 template <>
+struct EnumNames<InitialTable> {
+  static constexpr std::array<std::string_view, 2> values{"zero", "random"};
+};
+template <>
 struct EnumNames<SitePlacement> {
   static constexpr std::array<std::string_view, 2> values{"uv", "area"};
 };
@@ -44,7 +49,8 @@ struct RlSettings {
   double cell_normal_threshold = 0.866;
   int bins_theta = 10;
   int bins_phi = 10;
-  double bsdf_fraction = 0.3;
+  InitialTable initial_table = InitialTable::zero;
+  double bsdf_fraction = 0.5;
   double bin_floor = 0.1;
 
   bool operator==(const RlSettings&) const = default;
@@ -64,6 +70,9 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"bins_theta", "bins", "direction bins along the polar angle, equal in cosine", 1, 64},
         rl.bins_theta);
   visit(KnobInfo{"bins_phi", "bins", "direction bins along the azimuth", 1, 64}, rl.bins_phi);
+  visit(KnobInfo{"initial_table", "",
+                 "values before anything is learned: zero, or random in [0, 1) (the report)"},
+        rl.initial_table);
   visit(KnobInfo{"bsdf_fraction", "probability",
                  "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
         rl.bsdf_fraction);

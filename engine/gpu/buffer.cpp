@@ -54,9 +54,14 @@ void Buffer::bind_uniform(int binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id_);
 }
 
-void Buffer::clear() { glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+void Buffer::clear() {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
 
 void Buffer::clear(std::size_t offset, std::size_t bytes) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                             GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
@@ -64,6 +69,7 @@ void Buffer::clear(std::size_t offset, std::size_t bytes) {
 void Buffer::write(std::size_t offset, const void* data, std::size_t bytes) {
   check(offset + bytes <= bytes_, "write of {} bytes at {} outside of the buffer of {}", bytes, offset,
         name_);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 

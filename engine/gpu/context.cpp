@@ -22,17 +22,19 @@ std::string describe(const std::vector<DeviceInfo>& devices) {
   return text;
 }
 
-bool matches(const DeviceInfo& device, const std::string& choice) {
+// A number is an index, or a part of a name where no device has that index.
+bool matches(const DeviceInfo& device, const std::string& choice, std::size_t devices) {
   int index = -1;
   const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-  if (error == std::errc() && end == choice.data() + choice.size()) return device.index == index;
+  const bool is_number = error == std::errc() && end == choice.data() + choice.size();
+  if (is_number && index >= 0 && static_cast<std::size_t>(index) < devices) return device.index == index;
   return device.renderer.find(choice) != std::string::npos;
 }
 
 int choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
   std::optional<int> software;
   for (const DeviceInfo& device : devices) {
-    if (!device.problem.empty() || (!choice.empty() && !matches(device, choice))) continue;
+    if (!device.problem.empty() || (!choice.empty() && !matches(device, choice, devices.size()))) continue;
     if (!device.software || !choice.empty()) return device.index;
     if (!software) software = device.index;
   }

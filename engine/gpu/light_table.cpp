@@ -10,6 +10,8 @@
 namespace qtrace::gpu {
 namespace {
 
+constexpr uint kWholeSlot = 0xffffffff;  // alias threshold of a light that fills its slot
+
 double mean_radiance(const qtrace::Material& material) {
   return (double{material.emission.r} + material.emission.g + material.emission.b) / 3.0;
 }
@@ -23,14 +25,14 @@ void build_aliases(std::vector<Light>& lights, const std::vector<double>& probab
   for (std::size_t i = 0; i < n; ++i) {
     scaled[i] = probability[i] * static_cast<double>(n);
     (scaled[i] < 1 ? small : large).push_back(i);
-    lights[i].vertex.w = 1.0F;
+    lights[i].link.z = kWholeSlot;
     lights[i].link.x = static_cast<uint>(i);
   }
   while (!small.empty() && !large.empty()) {
     const std::size_t s = small.back();
     const std::size_t l = large.back();
     small.pop_back();
-    lights[s].vertex.w = static_cast<float>(scaled[s]);
+    lights[s].link.z = static_cast<uint>(scaled[s] * kWholeSlot);
     lights[s].link.x = static_cast<uint>(l);
     scaled[l] -= 1 - scaled[s];
     if (scaled[l] < 1) {

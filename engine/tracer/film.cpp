@@ -9,24 +9,16 @@
 namespace qtrace {
 namespace {
 
-// StatisticsBuffer of statistics.glsl.
-struct StatisticsBlock {
-  glm::uvec2 cut_pixel;
-  glm::uvec2 unused;
-  glm::uvec4 locations[gpu::MAX_LOCATIONS];
-  gpu::uint counters[2 * gpu::STATISTIC_COUNT];
-
-  std::uint64_t counter(gpu::uint statistic) const {
-    return (std::uint64_t{counters[2 * statistic + 1]} << 32) | counters[2 * statistic];
-  }
-};
+std::uint64_t counter(const gpu::Statistics& block, gpu::uint statistic) {
+  return (std::uint64_t{block.counters[2 * statistic + 1]} << 32) | block.counters[2 * statistic];
+}
 
 constexpr std::uint32_t kTile = 8;  // pixels along a work group's side
 
 std::uint32_t tiles(int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; }
 
-StatisticsBlock read_block(const gpu::Buffer& buffer) {
-  StatisticsBlock block;
+gpu::Statistics read_block(const gpu::Buffer& buffer) {
+  gpu::Statistics block;
   buffer.read(0, &block, sizeof(block));
   return block;
 }
@@ -46,7 +38,7 @@ Film::Film(int width, int height)
                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample)),
       sums_("pixel sums",
             static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
-      statistics_("statistics", sizeof(StatisticsBlock)),
+      statistics_("statistics", sizeof(gpu::Statistics)),
       accumulate_("accumulate.comp", {}) {}
 
 void Film::bind() const {
@@ -57,7 +49,7 @@ void Film::bind() const {
 
 void Film::start_frame() {
   constexpr std::size_t kCounterBytes = 2 * sizeof(gpu::uint);
-  statistics_.clear(offsetof(StatisticsBlock, counters), gpu::STATISTIC_PER_FRAME * kCounterBytes);
+  statistics_.clear(offsetof(gpu::Statistics, counters), gpu::STATISTIC_PER_FRAME * kCounterBytes);
 }
 
 void Film::accumulate(std::uint32_t frame) {
@@ -72,8 +64,8 @@ void Film::reset() {
 }
 
 void Film::check_loops() const {
-  const StatisticsBlock block = read_block(statistics_);
-  if (block.counter(gpu::STATISTIC_LOOPS_CUT) == 0) return;
+  const gpu::Statistics block = read_block(statistics_);
+  if (counter(block, gpu::STATISTIC_LOOPS_CUT) == 0) return;
   fail(
       "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
       "too few "
@@ -84,24 +76,24 @@ void Film::check_loops() const {
 
 FrameStatistics Film::statistics() const {
   check_loops();
-  const StatisticsBlock block = read_block(statistics_);
+  const gpu::Statistics block = read_block(statistics_);
   FrameStatistics s;
   s.paths = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-  s.rays = block.counter(gpu::STATISTIC_RAYS);
-  s.path_segments = block.counter(gpu::STATISTIC_SEGMENTS);
-  s.zero_paths = block.counter(gpu::STATISTIC_ZERO_PATHS);
-  s.cell_lookups = block.counter(gpu::STATISTIC_LOOKUPS);
-  s.cell_fallbacks = block.counter(gpu::STATISTIC_FALLBACKS);
-  s.non_finite = block.counter(gpu::STATISTIC_NON_FINITE);
-  s.table_updates = block.counter(gpu::STATISTIC_UPDATES);
-  s.saturated_updates = block.counter(gpu::STATISTIC_SATURATED);
+  s.rays = counter(block, gpu::STATISTIC_RAYS);
+  s.path_segments = counter(block, gpu::STATISTIC_SEGMENTS);
+  s.zero_paths = counter(block, gpu::STATISTIC_ZERO_PATHS);
+  s.cell_lookups = counter(block, gpu::STATISTIC_LOOKUPS);
+  s.cell_fallbacks = counter(block, gpu::STATISTIC_FALLBACKS);
+  s.non_finite = counter(block, gpu::STATISTIC_NON_FINITE);
+  s.table_updates = counter(block, gpu::STATISTIC_UPDATES);
+  s.saturated_updates = counter(block, gpu::STATISTIC_SATURATED);
   return s;
 }
 
 std::vector<NonFiniteSample> Film::non_finite_samples() const {
-  const StatisticsBlock block = read_block(statistics_);
+  const gpu::Statistics block = read_block(statistics_);
   const auto stored =
-      std::min<std::uint64_t>(block.counter(gpu::STATISTIC_ALL_NON_FINITE), gpu::MAX_LOCATIONS);
+      std::min<std::uint64_t>(counter(block, gpu::STATISTIC_ALL_NON_FINITE), gpu::MAX_LOCATIONS);
   std::vector<NonFiniteSample> samples;
   for (std::uint64_t i = 0; i < stored; ++i) {
     samples.push_back({block.locations[i].x, block.locations[i].y, block.locations[i].z});

@@ -3,6 +3,8 @@
 #include "engine/core/check.h"
 #include "engine/gpu/structs.h"
 
+#include <random>
+
 namespace qtrace {
 namespace {
 
@@ -24,6 +26,14 @@ std::vector<gpu::SiteRange> pack_ranges(const CellSites& sites) {
   return ranges;
 }
 
+// Uniform in [0, 1). The generator's sequence is fixed by the C++ standard, its distributions are not.
+std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
+  std::mt19937 generator(seed);
+  std::vector<float> values(count);
+  for (float& value : values) value = static_cast<float>(generator() >> 8) * (1.0F / 16777216.0F);
+  return values;
+}
+
 template <class T>
 gpu::Buffer upload(const char* name, const std::vector<T>& data) {
   return gpu::Buffer(name, std::span<const T>(data));
@@ -31,12 +41,17 @@ gpu::Buffer upload(const char* name, const std::vector<T>& data) {
 
 }  // namespace
 
-QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines)
-    : QTable(place_sites(scene, settings.site_placement, settings.sites_per_object), settings, defines) {}
+QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines,
+               std::uint32_t seed)
+    : QTable(place_sites(scene, settings.site_placement, settings.sites_per_object), settings, defines,
+             seed) {}
 
-QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines)
+QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines,
+               std::uint32_t seed)
     : cells_(static_cast<std::uint32_t>(sites.sites.size()) * kSidesPerSite),
       entries_(std::size_t{cells_} * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi)),
+      initial_table_(settings.initial_table),
+      seed_(seed),
       warnings_(sites.warnings),
       sites_(upload("Voronoi sites", pack_sites(sites))),
       ranges_(upload("site ranges", pack_ranges(sites))),
@@ -64,6 +79,10 @@ void QTable::learn() {
 
 void QTable::reset() {
   for (gpu::Buffer* buffer : {&values_, &visits_, &sums_}) buffer->clear();
+  if (initial_table_ == InitialTable::random) {
+    const std::vector<float> values = random_values(entries_, seed_);
+    values_.write(0, values.data(), values.size() * sizeof(float));
+  }
   learn();
 }
 

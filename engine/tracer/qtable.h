@@ -16,12 +16,13 @@ namespace qtrace {
 
 class QTable {
  public:
-  QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines);
+  // `seed`: of the values of a random initial table.
+  QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines, std::uint32_t seed);
 
   void bind() const;
   // Applies the targets that a frame gathered and prepares the next frame's bins. Parameters must be bound.
   void learn();
-  // As at the start: all values zero, nothing visited.
+  // As at the start: initial values, nothing visited.
   void reset();
 
   std::uint32_t cells() const { return cells_; }  // two for each site: front and back of the surface
@@ -34,10 +35,12 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines);
+  QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines, std::uint32_t seed);
 
   std::uint32_t cells_;
   std::size_t entries_;
+  InitialTable initial_table_;
+  std::uint32_t seed_;
   std::vector<std::string> warnings_;
   gpu::Buffer sites_;
   gpu::Buffer ranges_;

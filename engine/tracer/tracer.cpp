@@ -28,7 +28,7 @@ struct Tracer::State {
         parameter_block("parameters", sizeof(gpu::Parameters)),
         trace("trace.comp", shader_defines(wanted, buffers.features())) {
     if (wanted.sampler == Sampler::rl) {
-      table.emplace(scene, wanted.rl, shader_defines(wanted, buffers.features()));
+      table.emplace(scene, wanted.rl, shader_defines(wanted, buffers.features()), wanted.seed);
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, wanted, buffers.features().lights, table ? table->cells() : 0);
@@ -76,8 +76,8 @@ struct Tracer::State {
 };
 
 Tracer::Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
-  check_loop_budget(context.device(), settings);
   state_ = std::make_unique<State>(context, scene, settings);
+  check_loop_budget(context.device(), settings, state_->buffers.features());
   state_->warm_up();
 }
 
@@ -126,7 +126,10 @@ FirstHitImage Tracer::first_hit() const {
   return image;
 }
 
-QTable* Tracer::table() { return state_->table ? &*state_->table : nullptr; }
+QTable* Tracer::table() {
+  state_->bind();  // what is done with the table runs its update shader
+  return state_->table ? &*state_->table : nullptr;
+}
 
 void Tracer::set_learning(bool learning) { state_->learning = learning; }
 

@@ -22,7 +22,11 @@ struct Field {
   {                                                                   \
 #Struct "." #member, { offsetof(Struct, member), sizeof(Struct) } \
   }
-const std::map<std::string, Field> kFields{FIELD(Node, lo),
+const std::map<std::string, Field> kFields{FIELD(Statistics, cut_pixel),
+                                           FIELD(Statistics, unused),
+                                           FIELD(Statistics, locations),
+                                           FIELD(Statistics, counters),
+                                           FIELD(Node, lo),
                                            FIELD(Node, hi),
                                            FIELD(TriangleShape, vertex),
                                            FIELD(TriangleShape, edge1),
@@ -103,7 +107,8 @@ std::size_t check_struct(const std::string& name) {
     const std::string resource = resource_name(program.id(), interface, i);
     const std::string prefix = block ? "items." : "items[0].";
     if (!resource.starts_with(prefix)) continue;
-    const std::string key = name + "." + resource.substr(prefix.size());
+    std::string key = name + "." + resource.substr(prefix.size());
+    key = key.substr(0, key.find('['));  // of an array member
     SCOPED_TRACE(key);
     const auto field = kFields.find(key);
     if (field == kFields.end()) {

@@ -23,7 +23,7 @@ class Learning : public testing::Test {
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     buffers_.emplace(scene_, build_median_bvh(scene_, 4));
     defines_ = shader_defines(settings_, buffers_->features());
-    table_.emplace(scene_, settings_.rl, defines_);
+    table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
     const gpu::Parameters parameters = make_parameters(scene_.camera, settings_, 2, table_->cells());
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
@@ -116,6 +116,69 @@ TEST_F(Learning, ExpectationOfAConstantTableIsReflectanceTimesRadiance) {
                          "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));",
                          1, defines);
     EXPECT_NEAR(next[0].x, 0.8 * 3, 1e-4);
+  }
+}
+
+// q_learning: the best bin's value, discounted by the reflectance.
+TEST_F(Learning, QLearningTakesTheBestBin) {
+  settings_.rl.update = UpdateRule::q_learning;
+  defines_ = shader_defines(settings_, buffers_->features());
+  table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
+  std::vector<float> values(table_->values().size(), 1.0F);
+  for (std::size_t i = 2; i < values.size(); i += 4) values[i] = 7;
+  table_->set_values(values);
+  const auto next =
+      probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
+                       "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+                       "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+                       "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));",
+                       1, defines_);
+  EXPECT_NEAR(next[0].x, 0.8 * 7, 1e-4);
+}
+
+// The bin that learns is the bin that the light stands in: of a floor's cells, seen obliquely.
+TEST_F(Learning, BrightestBinFacesTheLight) {
+  LitFloor lit = lit_floor(0.8F, 100, 0.6F, 1);
+  lit.scene.camera = look_at({2.4F, 1, 1.6F}, {1.4F, 0, 0.8F}, 0.1F);
+  RenderSettings settings = settings_;
+  settings.width = settings.height = 32;
+  settings.max_bounces = 1;
+  settings.rl.bins_theta = settings.rl.bins_phi = 6;
+  Tracer tracer(device(), lit.scene, settings);
+  render(tracer, 64);
+  const std::vector<float> values = tracer.table()->values();
+  const auto found = probe<glm::uvec4>(
+      "uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
+      "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+      "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+      "Cell cell = find_cell(s);\n"
+      "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
+      "result = uvec4(uint(cell.index), bin, 0u, 0u);",
+      1, shader_defines(settings, buffers_->features()));
+  const auto cell = values.begin() + found[0].x * 36;
+  EXPECT_EQ(std::max_element(cell, cell + 36) - cell, found[0].y);
+}
+
+// A search that is cut says so: each of these looks through 100,000 sites, four a turn.
+TEST_F(Learning, CutSearchForCellsIsNoticed) {
+  if (device().device().renderer.find("llvmpipe") == std::string::npos)
+    GTEST_SKIP() << "no loop budget is known";
+  RlSettings many = settings_.rl;
+  many.sites_per_object = 100000;
+  const QTable table(scene_, many, defines_, 1);
+  table.bind();
+  const std::string search =
+      "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+      "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+      "int sum = 0;\nfor (int i = 0; i < SEARCHES; ++i) { s.position.x += 1e-3; sum += find_cell(s).index; "
+      "}\n"
+      "result = uvec4(uint(sum), loop_was_cut ? 1u : 0u, 0u, 0u);";
+  for (const auto& [searches, is_cut] : {std::pair{"1", 0U}, std::pair{"4", 1U}}) {
+    gpu::Defines defines = defines_;
+    defines["SEARCHES"] = searches;
+    const auto found =
+        probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "", search, 8, defines);
+    EXPECT_EQ(found[0].y, is_cut) << searches << " searches";
   }
 }
 

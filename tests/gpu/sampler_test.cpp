@@ -72,7 +72,7 @@ class Stage {
   explicit Stage(const Case& c)
       : scene_(make_scene(c)), settings_(make_settings(c)), buffers_(scene_, build_median_bvh(scene_, 4)) {
     defines_ = shader_defines(settings_, buffers_.features());
-    if (c.sampler == Sampler::rl) table_.emplace(scene_, settings_.rl, defines_);
+    if (c.sampler == Sampler::rl) table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
     const gpu::Parameters parameters =
         make_parameters(scene_.camera, settings_, buffers_.features().lights, table_ ? table_->cells() : 0);
     block_.write(0, &parameters, sizeof(parameters));

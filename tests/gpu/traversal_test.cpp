@@ -97,9 +97,9 @@ TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
   }
 }
 
-// Coincident dark triangles, and behind them in the hierarchy, nearer to the camera, one that emits: a walk that
-// is cut short shows black. Drivers that bound loops must not do that unseen: the image is right, or there
-// is an error.
+// Coincident dark triangles, and behind them in the hierarchy, nearer to the camera, one that emits: a walk
+// that is cut short shows black. Drivers that bound loops must not do that unseen: the image is right, or
+// there is an error.
 TEST(Traversal, LoopBudgetIsNeverExceededInSilence) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.5F)), lambert(glm::vec3(0.5F), glm::vec3(1.0F))};

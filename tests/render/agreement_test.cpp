@@ -48,20 +48,24 @@ void expect_same_image(const Rendering& a, const Rendering& b, std::size_t compa
   }
 }
 
-void expect_all_methods_agree(const Scene& scene, int frames) {
-  const Rendering truth =
-      render(scene, with_method(base_settings(900), {"", Sampler::bsdf, Nee::one_ray, {}}), 2 * frames);
+void expect_all_methods_agree(const Scene& scene, int frames, std::array<double, 3> environment = {0, 0, 0}) {
+  const auto settings = [&](std::uint32_t seed, const Method& method) {
+    RenderSettings s = with_method(base_settings(seed), method);
+    s.environment = environment;
+    return s;
+  };
+  const Rendering truth = render(scene, settings(900, {"", Sampler::bsdf, Nee::one_ray, {}}), 2 * frames);
   std::uint32_t seed = 1;
   for (const Method& method : all_methods()) {
     SCOPED_TRACE(method.name);
-    const Rendering r = render(scene, with_method(base_settings(seed++), method), frames);
+    const Rendering r = render(scene, settings(seed++, method), frames);
     expect_same_image(r, truth, all_methods().size() * kBlocks);
   }
 }
 
 TEST(Agreement, AllMethodsOnOccluded) { expect_all_methods_agree(shipped("occluded.glb"), 96); }
 
-// A glossy room: metal, plastic, double-sided light, and light from outside.
+// A glossy room: metal, plastic, a second, dimmer and double-sided light, and light from outside.
 TEST(Agreement, AllMethodsOnGlossyMaterials) {
   Scene scene = shipped("cornell_box.glb");
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -70,7 +74,30 @@ TEST(Agreement, AllMethodsOnGlossyMaterials) {
     m.specular = i % 3 == 1 ? 0.7F : 1.0F;
     m.roughness = i % 2 == 0 ? 0.5F : 0.7F;  // broad enough for uniform directions to find the highlights
   }
-  expect_all_methods_agree(scene, 96);
+  scene.materials.push_back(lambert(glm::vec3(0.2F), glm::vec3(2, 4, 6)));
+  scene.materials.back().double_sided = true;
+  add_quad(scene, {1.2F, 2, 0}, {0.8F, 0.3F, 0}, {0, 0.8F, 0.4F},
+           static_cast<std::uint32_t>(scene.materials.size() - 1));
+  expect_all_methods_agree(scene, 96, {0.3, 0.2, 0.1});
+}
+
+// Without the BSDF's share, all directions come from what was learned, as in the report.
+TEST(Agreement, TableAloneWhileItLearns) {
+  const Scene scene = shipped("cornell_box.glb");
+  RenderSettings settings = with_method(base_settings(950), {"", Sampler::bsdf, Nee::one_ray, {}});
+  settings.max_bounces = 2;
+  const Rendering truth = render(scene, settings, 256);
+  settings.rl.bsdf_fraction = 0;
+  settings.rl.bin_floor = 0.3;
+  for (const UpdateRule update : {UpdateRule::expected_sarsa, UpdateRule::q_learning}) {
+    for (const InitialTable initial : {InitialTable::zero, InitialTable::random}) {
+      SCOPED_TRACE(testing::Message() << enum_name(update) << " from " << enum_name(initial));
+      settings.rl.initial_table = initial;
+      ++settings.seed;
+      const Rendering r = render(scene, with_method(settings, {"", Sampler::rl, Nee::none, update}), 256);
+      expect_same_image(r, truth, 4 * kLargeBlocks, kLargeBlock);
+    }
+  }
 }
 
 TEST(Agreement, RussianRouletteKeepsTheMean) {

@@ -52,6 +52,44 @@ TEST(Irradiance, FloorUnderSquareLight) {
   }
 }
 
+// A tiny light at the origin, far from what it lights: single precision must not let it shadow itself, at any
+// scale.
+TEST(Irradiance, TinyLightAtTheOriginIsNotItsOwnShadow) {
+  for (const float scale : {1e-3F, 1.0F, 1e3F}) {
+    LitFloor lit = lit_floor(0.8F, 1e6F, 0.02F, 5.0F);
+    const Estimate truth{expected_mean(lit), 0};
+    const auto place = [&](glm::vec3 p) { return (p - glm::vec3(0, 5, 0)) * scale; };
+    for (Triangle& t : lit.scene.triangles) {
+      for (glm::vec3& p : t.position) p = place(p);
+    }
+    glm::vec4& eye = lit.scene.camera.world_from_camera[3];
+    eye = glm::vec4(place(glm::vec3(eye)), 1);
+    for (const Method& method : all_methods()) {
+      if (method.nee == Nee::none) continue;  // finds so small a light too rarely
+      SCOPED_TRACE(testing::Message() << method.name << ", scale " << scale);
+      const Rendering r = render(lit.scene, with_method(direct_light_settings(), method), 64);
+      EXPECT_NEAR(block_estimate(r.image, 0, 0, kSize).mean / truth.mean, 1, 0.01);
+    }
+  }
+}
+
+// Under an open sky of radiance Ls and the square light: rho (Ls (1 - F) + Le F), F the light's share of the
+// hemisphere weighted by the cosine.
+TEST(Irradiance, FloorUnderSkyAndSquareLight) {
+  const double sky = 2;
+  const LitFloor lit = lit_floor(0.8F, 10.0F, 1.5F, 1.0F);
+  const double light_part = expected_mean(lit);
+  const Estimate truth{double{lit.albedo} * sky + light_part * (1 - sky / lit.emission), 0};
+  for (const Method& method : all_methods()) {
+    SCOPED_TRACE(method.name);
+    RenderSettings settings = with_method(direct_light_settings(), method);
+    settings.environment = {sky, sky, sky};
+    const Estimate all = block_estimate(render(lit.scene, settings, 256).image, 0, 0, kSize);
+    EXPECT_LT(z_score(all, truth), 4) << all.mean << " instead of " << truth.mean;
+    EXPECT_NEAR(all.mean / truth.mean, 1, 0.02);
+  }
+}
+
 // A floor that sees the whole sky reflects albedo times its radiance.
 TEST(Irradiance, FloorUnderOpenSky) {
   Scene scene;
