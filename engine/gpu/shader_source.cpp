@@ -10,6 +10,9 @@
 namespace qtrace::gpu {
 namespace {
 
+// Mesa (22.3) forgets the source number of an expression's place, but not its line: so the line holds both.
+constexpr std::size_t kLinesPerFile = 100000;
+
 class Assembler {
  public:
   Assembler(const std::string& name, std::string_view text, const Defines& defines) {
@@ -26,7 +29,7 @@ class Assembler {
 
  private:
   void append(std::size_t file, std::string_view text, int line) {
-    source_.text += fmt::format("#line {} {}\n", line, file);
+    mark(file, line);
     std::istringstream lines{std::string(text)};
     for (std::string current; std::getline(lines, current); ++line) {
       if (current.starts_with("#include")) {
@@ -35,6 +38,10 @@ class Assembler {
         source_.text += current + "\n";
       }
     }
+  }
+
+  void mark(std::size_t file, int line) {
+    source_.text += fmt::format("#line {} {}\n", file * kLinesPerFile + static_cast<std::size_t>(line), file);
   }
 
   void include(std::size_t file, const std::string& directive, int line) {
@@ -47,7 +54,7 @@ class Assembler {
       source_.files.push_back(name);
       append(source_.files.size() - 1, shader_file(name), 1);
     }
-    source_.text += fmt::format("#line {} {}\n", line + 1, file);
+    mark(file, line + 1);
   }
 
   ShaderSource source_;
@@ -73,10 +80,11 @@ std::string readable_log(const std::string& log, const ShaderSource& source) {
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
     if (std::regex_search(line, match, place)) {
-      const std::size_t file = std::stoul(match[1]);
-      const std::string name = file < source.files.size() ? source.files[file] : match[1].str();
-      line = fmt::format("{}:{}{}", name, match[2].matched ? match[2].str() : match[3].str(),
-                         match.suffix().str());
+      const std::size_t number = std::stoul(match[2].matched ? match[2].str() : match[3].str());
+      const std::size_t file = number / kLinesPerFile;
+      if (file < source.files.size()) {
+        line = fmt::format("{}:{}{}", source.files[file], number % kLinesPerFile, match.suffix().str());
+      }
     }
     result += line + "\n";
   }

@@ -13,7 +13,7 @@ using Defines = std::map<std::string, std::string>;
 
 struct ShaderSource {
   std::string text;
-  std::vector<std::string> files;  // names by the source numbers of #line
+  std::vector<std::string> files;  // names by source number
 };
 
 // The text of shaders/<name>, as built into the program. Throws Error where there is none.
@@ -23,8 +23,8 @@ std::string_view shader_file(std::string_view name);
 // by shaders/file, once each. `name` is what errors call it.
 ShaderSource assemble(const std::string& name, std::string_view text, const Defines& defines);
 
-// A driver's log with source numbers replaced: "3:12(5): error" (Mesa) and "3(12) : error" (NVIDIA) become
-// "bsdf.glsl:12: error".
+// A driver's log with its places replaced: "3:300012(5): error" (Mesa) and "3(300012) : error" (NVIDIA)
+// become "bsdf.glsl:12: error".
 std::string readable_log(const std::string& log, const ShaderSource& source);
 
 }  // namespace qtrace::gpu

@@ -40,7 +40,7 @@ TEST(Program, UnknownIncludeIsNamed) {
 
 TEST(Program, LogsOfBothDriversAreRead) {
   const ShaderSource source{"", {"trace.comp", "bsdf.glsl"}};
-  EXPECT_EQ(readable_log("1:12(5): error: a", source), "bsdf.glsl:12: error: a\n");
+  EXPECT_EQ(readable_log("0:100012(5): error: a", source), "bsdf.glsl:12: error: a\n");
   EXPECT_EQ(readable_log("0(7) : error C1: b", source), "trace.comp:7: error C1: b\n");
 }
 

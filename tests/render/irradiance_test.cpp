@@ -4,6 +4,7 @@
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace qtrace::test {
@@ -58,12 +59,17 @@ TEST(Irradiance, TinyLightAtTheOriginIsNotItsOwnShadow) {
   for (const float scale : {1e-3F, 1.0F, 1e3F}) {
     LitFloor lit = lit_floor(0.8F, 1e6F, 0.02F, 5.0F);
     const Estimate truth{expected_mean(lit), 0};
-    const auto place = [&](glm::vec3 p) { return (p - glm::vec3(0, 5, 0)) * scale; };
+    // Tilted, so that no coordinate is exact by chance.
+    const glm::mat3 tilt(glm::rotate(glm::mat4(1), 0.7F, glm::normalize(glm::vec3(1, 0.4F, -0.6F))));
+    const auto place = [&](glm::vec3 p) { return tilt * (p - glm::vec3(0, 5, 0)) * scale; };
     for (Triangle& t : lit.scene.triangles) {
       for (glm::vec3& p : t.position) p = place(p);
+      for (glm::vec3& n : t.normal) n = tilt * n;
     }
-    glm::vec4& eye = lit.scene.camera.world_from_camera[3];
-    eye = glm::vec4(place(glm::vec3(eye)), 1);
+    glm::mat4& camera = lit.scene.camera.world_from_camera;
+    const glm::vec3 eye = place(glm::vec3(camera[3]));
+    camera = glm::mat4(tilt) * camera;
+    camera[3] = glm::vec4(eye, 1);
     for (const Method& method : all_methods()) {
       if (method.nee == Nee::none) continue;  // finds so small a light too rarely
       SCOPED_TRACE(testing::Message() << method.name << ", scale " << scale);
