@@ -15,6 +15,11 @@
 namespace qtrace::test {
 namespace {
 
+// Sets `s` to what the middle of the image shows, seen along `d`.
+const std::string kViewedSurface =
+    "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+    "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n";
+
 class Learning : public testing::Test {
  protected:
   Learning() {
@@ -44,6 +49,15 @@ class Learning : public testing::Test {
   }
 
   const gpu::Context& context_ = device();  // before the first buffer
+  // What the viewed surface adds to a target that arrives there.
+  static float next_value_in_view(const gpu::Defines& defines) {
+    return probe<glm::vec4>(
+               "vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
+               kViewedSurface + "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));", 1,
+               defines)[0]
+        .x;
+  }
+
   Scene scene_;
   RenderSettings settings_;
   std::optional<gpu::SceneBuffers> buffers_;
@@ -109,13 +123,8 @@ TEST_F(Learning, ExpectationOfAConstantTableIsReflectanceTimesRadiance) {
     buffers.bind();
     const gpu::Defines defines = shader_defines(settings_, buffers.features());
     table_->set_values(std::vector<float>(table_->values().size(), 3.0F));
-    const auto next =
-        probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
-                         "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
-                         "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
-                         "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));",
-                         1, defines);
-    EXPECT_NEAR(next[0].x, 0.8 * 3, 1e-4);
+    const float next = next_value_in_view(defines);
+    EXPECT_NEAR(next, 0.8 * 3, 1e-4);
   }
 }
 
@@ -127,13 +136,8 @@ TEST_F(Learning, QLearningTakesTheBestBin) {
   std::vector<float> values(table_->values().size(), 1.0F);
   for (std::size_t i = 2; i < values.size(); i += 4) values[i] = 7;
   table_->set_values(values);
-  const auto next =
-      probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
-                       "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
-                       "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
-                       "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));",
-                       1, defines_);
-  EXPECT_NEAR(next[0].x, 0.8 * 7, 1e-4);
+  const float next = next_value_in_view(defines_);
+  EXPECT_NEAR(next, 0.8 * 7, 1e-4);
 }
 
 // The bin that learns is the bin that the light stands in: of a floor's cells, seen obliquely.
@@ -149,11 +153,10 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   const std::vector<float> values = tracer.table()->values();
   const auto found = probe<glm::uvec4>(
       "uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
-      "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
-      "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
-      "Cell cell = find_cell(s);\n"
-      "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
-      "result = uvec4(uint(cell.index), bin, 0u, 0u);",
+      kViewedSurface +
+          "Cell cell = find_cell(s);\n"
+          "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
+          "result = uvec4(uint(cell.index), bin, 0u, 0u);",
       1, shader_defines(settings, buffers_->features()));
   const auto cell = values.begin() + found[0].x * 36;
   EXPECT_EQ(std::max_element(cell, cell + 36) - cell, found[0].y);
@@ -168,8 +171,7 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
   const QTable table(scene_, many, defines_, 1);
   table.bind();
   const std::string search =
-      "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
-      "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+      kViewedSurface +
       "int sum = 0;\nfor (int i = 0; i < SEARCHES; ++i) { s.position.x += 1e-3; sum += find_cell(s).index; "
       "}\n"
       "result = uvec4(uint(sum), loop_was_cut ? 1u : 0u, 0u, 0u);";

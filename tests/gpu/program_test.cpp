@@ -28,8 +28,8 @@ TEST(Program, ErrorNamesFileAndLine) {
 TEST(Program, ErrorInsideAnIncludeNamesTheInclude) {
   test::device();
   // bins.glsl needs the numbers of bins as defines.
-  const std::string message = message_of(
-      "#version 450 core\n#include \"bins.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+  const std::string message =
+      message_of("#version 450 core\n#include \"bins.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
   EXPECT_NE(message.find("bins.glsl:3"), std::string::npos) << message;
 }
 

@@ -8,6 +8,7 @@
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <numbers>
 #include <random>
@@ -45,6 +46,8 @@ struct Case {
   float metallic = 0;
   float specular = 0;
   float roughness = 1;
+  bool tilted = false;  // the normal points to -z, where the tangent frame takes its other branch
+  bool back = false;    // the floor shows its back face
 };
 
 std::vector<Case> cases() {
@@ -57,7 +60,17 @@ std::vector<Case> cases() {
           {"random table", Sampler::rl, 0, 1},
           {"one huge bin", Sampler::rl, 0, 2},
           {"random table with Lambert", Sampler::rl, 0.3, 1},
-          {"random table with plastic", Sampler::rl, 0.5, 1, 0, 1, 0.5F}};
+          {"random table with plastic", Sampler::rl, 0.5, 1, 0, 1, 0.5F},
+          {"tilted Lambert", Sampler::bsdf, 0, 0, 0, 0, 1, true},
+          {"tilted plastic", Sampler::bsdf, 0, 0, 0, 1, 0.5F, true},
+          {"tilted uniform", Sampler::uniform, 0, 0, 0, 0, 1, true},
+          {"tilted random table", Sampler::rl, 0.3, 1, 0, 0, 1, true},
+          {"random table on the back face", Sampler::rl, 0.3, 1, 0, 0, 1, true, true}};
+}
+
+glm::mat3 tilt_of(const Case& c) {
+  return c.tilted ? glm::mat3(glm::rotate(glm::mat4(1), 2.2F, glm::normalize(glm::vec3(1, 0.3F, 0.4F))))
+                  : glm::mat3(1);
 }
 
 std::size_t cell_of(glm::dvec3 d) {
@@ -70,7 +83,10 @@ std::size_t cell_of(glm::dvec3 d) {
 class Stage {
  public:
   explicit Stage(const Case& c)
-      : scene_(make_scene(c)), settings_(make_settings(c)), buffers_(scene_, build_median_bvh(scene_, 4)) {
+      : tilt_(tilt_of(c)),
+        scene_(make_scene(c)),
+        settings_(make_settings(c)),
+        buffers_(scene_, build_median_bvh(scene_, 4)) {
     defines_ = shader_defines(settings_, buffers_.features());
     if (c.sampler == Sampler::rl) table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
     const gpu::Parameters parameters =
@@ -93,8 +109,9 @@ class Stage {
     double wrong_pdf = 0;
     for (const glm::vec4& s : samples) {
       // The floor's normal is +y: (z, x, y) is a frame with its normal upwards.
-      if (s.y <= 0) continue;  // below the surface, where the BSDF is zero
-      ++counts[cell_of({s.z, s.x, s.y})];
+      const glm::vec3 d = glm::transpose(tilt_) * glm::vec3(s);
+      if (d.y <= 0) continue;  // below the surface, where the BSDF is zero
+      ++counts[cell_of({d.z, d.x, d.y})];
       if (!(std::abs(s.w - 1) < 1e-3F)) ++wrong_pdf;
     }
     // Rounding may put a direction at the edge of a bin into the next one.
@@ -111,9 +128,9 @@ class Stage {
         std::to_string(kGrid) + ".0) / " + std::to_string(kRows) + ".0;\n" +
         "  float phi = 2.0 * PI * (float(cell % " + std::to_string(kColumns) + "u) + (float(i) + 0.5) / " +
         std::to_string(kGrid) + ".0) / " + std::to_string(kColumns) +
-        ".0;\n  float r = sqrt(1.0 - z * z);\n" +
-        "  sum += direction_pdf(e, vec3(r * sin(phi), z, r * cos(phi)));\n  ++i;\n} while (i < " +
-        std::to_string(kGrid) + "u);\nresult = vec4(sum);";
+        ".0;\n  float r = sqrt(1.0 - z * z);\n" + "  sum += direction_pdf(e, " + tilt_text() +
+        " * vec3(r * sin(phi), z, r * cos(phi)));\n  ++i;\n} while (i < " + std::to_string(kGrid) +
+        "u);\nresult = vec4(sum);";
     const auto sums = probe<glm::vec4>("vec4", kIncludes, kEvent, body, kRows * kColumns * kGrid, defines_);
     const double point = 4 * std::numbers::pi / (kRows * kColumns * kGrid * kGrid);
     std::vector<double> counts(kRows * kColumns);
@@ -127,7 +144,20 @@ class Stage {
     scene.materials[0].metallic = c.metallic;
     scene.materials[0].specular = c.specular;
     scene.materials[0].roughness = c.roughness;
+    const glm::mat3 tilt = tilt_of(c);
+    for (Triangle& t : scene.triangles) {
+      for (glm::vec3& p : t.position) p = tilt * p;
+      for (glm::vec3& n : t.normal) n = tilt * n * (c.back ? -1.0F : 1.0F);
+      if (c.back) std::swap(t.position[1], t.position[2]);
+    }
+    scene.camera.world_from_camera = glm::mat4(tilt) * scene.camera.world_from_camera;
     return scene;
+  }
+
+  std::string tilt_text() const {
+    std::string text = "mat3(";
+    for (int i = 0; i < 9; ++i) text += (i > 0 ? ", " : "") + std::to_string(tilt_[i / 3][i % 3]);
+    return text + ")";
   }
 
   static RenderSettings make_settings(const Case& c) {
@@ -154,6 +184,7 @@ class Stage {
     return values;
   }
 
+  glm::mat3 tilt_;
   Scene scene_;
   RenderSettings settings_;
   gpu::SceneBuffers buffers_;
