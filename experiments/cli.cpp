@@ -46,6 +46,7 @@ int command_run(const RunOptions& options) {
   }
   const gpu::Context context(options.device);
   progress.note("device: " + device_text(context.device()));
+  for (const Experiment& experiment : experiments) check_device(experiment, context, scenes);
   bool all_finished = true;
   for (const Experiment& experiment : experiments) {
     all_finished = run_experiment(experiment, context, scenes, options.out, progress) && all_finished;

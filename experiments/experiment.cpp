@@ -1,6 +1,7 @@
 #include "experiments/experiment.h"
 
 #include "engine/core/check.h"
+#include "engine/tracer/limits.h"
 #include "experiments/atomic_file.h"
 #include "experiments/manifest.h"
 #include "experiments/run.h"
@@ -116,6 +117,16 @@ void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& pro
       const LoadedScene& scene = scenes.load(experiment.scene_file(run));
       for (const std::string& warning : scene.scene.warnings) say(scene.file.string() + ": " + warning);
       say(light_warning(scene, run.config));
+    } catch (const Error& error) {
+      fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
+    }
+  }
+}
+
+void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes) {
+  for (const Run& run : experiment.runs) {
+    try {
+      check_limits(context, scenes.load(experiment.scene_file(run)).scene, run.config.render);
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
     }

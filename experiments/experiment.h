@@ -23,6 +23,9 @@ std::string describe_runs(const Experiment& experiment, SceneStore& scenes,
 // Renames an existing folder to the first free name of folder.1, folder.2, ... and returns that name.
 std::optional<std::filesystem::path> move_aside(const std::filesystem::path& folder);
 
+// Throws Error that names the first run that the device cannot do.
+void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes);
+
 // Runs everything and writes results_root/<name>; earlier results of that name are moved aside. Prints the
 // table. Failed runs do not stop the others. Returns whether all runs finished.
 bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,

@@ -15,19 +15,23 @@ constexpr std::size_t kSmallest = 16;  // an empty scene part still needs someth
 
 }  // namespace
 
-Buffer::Buffer(std::string name, std::size_t bytes) : name_(std::move(name)), bytes_(bytes) {
+void check_buffer_size(const std::string& name, std::size_t bytes) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  const double mib = static_cast<double>(bytes) / kBytesPerMib;
   check(bytes <= static_cast<std::size_t>(most),
-        "the buffer of {} needs {:.1f} MiB and this device allows {:.1f} MiB: reduce what it holds", name_,
-        mib, static_cast<double>(most) / kBytesPerMib);
+        "the buffer of {} needs {:.1f} MiB and this device allows {:.1f} MiB: reduce what it holds", name,
+        static_cast<double>(bytes) / kBytesPerMib, static_cast<double>(most) / kBytesPerMib);
+}
+
+Buffer::Buffer(std::string name, std::size_t bytes) : name_(std::move(name)), bytes_(bytes) {
+  check_buffer_size(name_, bytes);
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
   if (glGetError() != GL_NO_ERROR) {
     glDeleteBuffers(1, &id_);
-    fail("the device has no {:.1f} MiB left for the buffer of {}", mib, name_);
+    fail("the device has no {:.1f} MiB left for the buffer of {}", static_cast<double>(bytes) / kBytesPerMib,
+         name_);
   }
   clear();
 }

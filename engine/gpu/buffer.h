@@ -8,6 +8,9 @@
 
 namespace qtrace::gpu {
 
+// Throws Error that names the buffer where the device allows none of this size.
+void check_buffer_size(const std::string& name, std::size_t bytes);
+
 // A buffer object with storage that never changes its size. `name` is what errors call it.
 class Buffer {
  public:

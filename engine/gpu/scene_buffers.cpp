@@ -73,6 +73,8 @@ std::vector<gpu::Material> pack_materials(const Scene& scene) {
 
 }  // namespace
 
+bool is_specular(const Scene& scene) { return std::ranges::any_of(scene.materials, has_specular_lobe); }
+
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh)
     : SceneBuffers(scene, bvh, build_light_table(scene)) {}
 
@@ -82,7 +84,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
       shades_(upload("triangle normals", pack_shades(scene, bvh, lights))),
       materials_(upload("materials", pack_materials(scene))),
       lights_(upload("lights", lights.lights)) {
-  features_.specular = std::ranges::any_of(scene.materials, has_specular_lobe);
+  features_.specular = is_specular(scene);
   features_.lights = static_cast<uint>(lights.lights.size());
   for (const qtrace::Material& m : scene.materials) {
     if (!has_specular_lobe(m) || m.roughness >= kMinRoughness) continue;

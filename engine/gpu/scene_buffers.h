@@ -18,6 +18,9 @@ struct SceneFeatures {
   uint lights = 0;        // emitting triangles
 };
 
+// Whether any material has a specular lobe.
+bool is_specular(const Scene& scene);
+
 class SceneBuffers {
  public:
   SceneBuffers(const Scene& scene, const Bvh& bvh);

@@ -3,14 +3,15 @@
 
 #include "engine/core/settings.h"
 #include "engine/gpu/context.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/scene/scene.h"
 
 namespace qtrace {
 
-// llvmpipe ends every loop of a shader invocation after 65,535 iterations in total, without an error. Throws
-// Error where the loops over sites and bins alone would need more than half of that; what remains is for
+// Throws Error where the device cannot hold the image or the table, or could cut the loops of a path short.
+//
+// llvmpipe ends every loop of a shader invocation after 65,535 iterations in total, without an error.
+// Refused is where the loops over sites and bins alone would need more than half of that; what remains is for
 // traversal, and shaders report a loop that was cut (Film::check_loops).
-void check_loop_budget(const gpu::DeviceInfo& device, const RenderSettings& settings,
-                       const gpu::SceneFeatures& features);
+void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
 
 }  // namespace qtrace

@@ -62,6 +62,12 @@ QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::De
       next_values_("Q next values (sites)", cells_ * sizeof(float)),
       learn_("learn.comp", defines) {}
 
+std::size_t QTable::entries(const Scene& scene, const RlSettings& settings) {
+  const auto count = [](int value) { return static_cast<std::size_t>(value); };
+  return scene.objects.size() * count(settings.sites_per_object) * kSidesPerSite *
+         count(settings.bins_theta) * count(settings.bins_phi);
+}
+
 void QTable::bind() const {
   sites_.bind_storage(gpu::BINDING_SITES);
   ranges_.bind_storage(gpu::BINDING_SITE_RANGES);

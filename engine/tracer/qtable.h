@@ -25,6 +25,9 @@ class QTable {
   // As at the start: initial values, nothing visited.
   void reset();
 
+  // Entries of a table, before it is built: cells x bins.
+  static std::size_t entries(const Scene& scene, const RlSettings& settings);
+
   std::uint32_t cells() const { return cells_; }  // two for each site: front and back of the surface
   std::size_t bytes() const;
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -76,8 +76,8 @@ struct Tracer::State {
 };
 
 Tracer::Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
+  check_limits(context, scene, settings);
   state_ = std::make_unique<State>(context, scene, settings);
-  check_loop_budget(context.device(), settings, state_->buffers.features());
   state_->warm_up();
 }
 

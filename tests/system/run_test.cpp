@@ -215,22 +215,39 @@ TEST_F(RunProgram, ASceneWithoutLightIsBlackAndNoError) {
   }
 }
 
+// A folder stands where the first run's reference should be kept.
 TEST_F(RunProgram, AFailedRunDoesNotStopTheOthers) {
-  const Outcome outcome = run("fail", R"("sweep": [{"table": {
-      "too large": {"sampler": "rl", "rl": {"sites_per_object": 100000, "bins_theta": 64, "bins_phi": 64}},
-      "small": {"sampler": "rl", "rl": {"sites_per_object": 4}}}}], )");
+  constexpr const char* kSweep = R"("sweep": [{"max_bounces": [1, 2]}], )";
+  const Outcome plan = run("fail", kSweep, {"--dry-run"});
+  const std::string word = "reference ";
+  const std::size_t place = plan.out.find(word);
+  ASSERT_NE(place, std::string::npos) << plan.out;
+  const std::string hash = plan.out.substr(place + word.size(), 32);
+  std::filesystem::create_directories(folder_ / ("results/references/" + hash + ".exr/in_the_way"));
+
+  const Outcome outcome = run("fail", kSweep);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_TRUE(contains(outcome.err, "run 1/2 table=too-large: failed: ")) << outcome.err;
-  EXPECT_TRUE(contains(outcome.err, "run 2/2 table=small: finished")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "run 1/2 max_bounces=1: failed: ")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "run 2/2 max_bounces=2: finished")) << outcome.err;
   const auto summary = parse_csv(folder_.read("results/fail/summary.csv"));
   ASSERT_EQ(summary.size(), 2U);
   EXPECT_EQ(summary[0].at("status"), "failed");
   EXPECT_NE(summary[0].at("reason"), "");
   EXPECT_EQ(summary[0].at("relmse"), "");
   EXPECT_EQ(summary[1].at("status"), "finished");
-  EXPECT_EQ(json("results/fail/table=too-large/manifest.json").at("reason"), summary[0].at("reason"));
+  EXPECT_EQ(json("results/fail/max_bounces=1/manifest.json").at("reason"), summary[0].at("reason"));
   EXPECT_EQ(json("results/fail/manifest.json").at("status"), "failed");
   EXPECT_TRUE(contains(outcome.out, "Failed runs:"));
+}
+
+TEST_F(RunProgram, WhatTheDeviceCannotHoldIsRefusedBeforeAnythingStarts) {
+  const Outcome outcome = run("large", R"("sweep": [{"table": {
+      "small": {"sampler": "rl", "rl": {"sites_per_object": 4}},
+      "too large": {"sampler": "rl", "rl": {"sites_per_object": 100000, "bins_theta": 64, "bins_phi": 64}}}}], )");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err, "large.json: run 'table=too-large': the buffer of Q targets"))
+      << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
 }
 
 }  // namespace
