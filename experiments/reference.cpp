@@ -33,8 +33,7 @@ bool all_finite(const std::vector<glm::dvec3>& pixels) {
 constexpr const char* kNonFinite = "nonFinite";  // EXR attribute
 
 // Kept with the image, so that a reference found later does not hide them.
-std::uint64_t count_non_finite(const fs::path& file) {
-  const ExrImage exr = read_exr(file);
+std::uint64_t count_non_finite(const ExrImage& exr) {
   const auto found = exr.metadata.find(kNonFinite);
   return found == exr.metadata.end() ? 0 : std::stoull(found->second);
 }
@@ -70,7 +69,7 @@ ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_h
   return spec;
 }
 
-RadianceImage read_reference(const fs::path& file, const ReferenceSpec& spec) {
+StoredReference read_reference(const fs::path& file, const ReferenceSpec& spec) {
   const ExrImage exr = read_exr(file);
   const RadianceImage image = to_radiance(exr, file);
   const auto hash = exr.metadata.find("referenceHash");
@@ -83,7 +82,7 @@ RadianceImage read_reference(const fs::path& file, const ReferenceSpec& spec) {
         "{}: has {} samples per pixel but must have {}", file.string(), image.samples, spec.frames);
   check(all_finite(image.mean) && all_finite(image.variance), "{}: has pixels that are not finite",
         file.string());
-  return image;
+  return {image, count_non_finite(exr)};
 }
 
 ReferenceStore::ReferenceStore(const gpu::Context& context, fs::path results_root, Progress& progress)
@@ -117,10 +116,14 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
                                          const fs::path& config_folder) {
   Reference reference{spec, scene.scene.name, kept_file(results_root_, spec.hash), "found", {}, {}};
   const fs::path shipped = shipped_file(config_folder, spec.hash);
+  const auto keep = [&](StoredReference stored) {
+    reference.image = std::move(stored.image);
+    reference.non_finite = stored.non_finite;
+  };
   const auto try_file = [&](const fs::path& file, const char* origin) {
     if (!fs::exists(file)) return false;
     try {
-      reference.image = read_reference(file, spec);
+      keep(read_reference(file, spec));
     } catch (const Error& error) {
       progress_.warning(fmt::format("this reference cannot be used and is rendered anew: {}", error.what()));
       return false;
@@ -131,10 +134,9 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
   };
   if (!try_file(reference.file, "found") && !try_file(shipped, "shipped")) {
     render(spec, scene, reference.file);
-    reference.image = read_reference(reference.file, spec);
+    keep(read_reference(reference.file, spec));
     reference.origin = "rendered";
   }
-  reference.non_finite = count_non_finite(reference.file);
   if (reference.non_finite > 0) {
     progress_.warning(fmt::format("{}: {} samples of this reference were not finite and count as 0 in it",
                                   reference.file.string(), reference.non_finite));

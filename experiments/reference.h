@@ -76,7 +76,13 @@ class ReferenceStore {
   std::map<std::string, std::string> failures_;
 };
 
+// What a reference file holds.
+struct StoredReference {
+  RadianceImage image;
+  std::uint64_t non_finite = 0;  // as in Reference
+};
+
 // Reads a reference file. Throws Error that says why it cannot serve.
-RadianceImage read_reference(const std::filesystem::path& file, const ReferenceSpec& spec);
+StoredReference read_reference(const std::filesystem::path& file, const ReferenceSpec& spec);
 
 }  // namespace qtrace::experiments

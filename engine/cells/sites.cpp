@@ -22,7 +22,7 @@ CellSite site_on(const Triangle& t, double u, double v) {
   glm::dvec3 normal = weigh(t.normal);
   // Opposite vertex normals can cancel; then the face's serves, as in surface.glsl.
   if (glm::length(normal) < 1e-6) {
-    normal = glm::cross(glm::dvec3(t.position[1] - t.position[0]), glm::dvec3(t.position[2] - t.position[0]));
+    normal = area_vector(t.position);
   }
   return {glm::vec3(weigh(t.position)), glm::vec3(glm::normalize(normal))};
 }
@@ -58,11 +58,6 @@ std::vector<CellSite> place_by_uv(const Scene& scene, const Object& object, std:
     points = std::max(points + 1, static_cast<std::uint32_t>(std::ceil(points * (wanted / alive))));
   }
   return {};
-}
-
-double area_of(const Triangle& t) {
-  return 0.5 * glm::length(glm::cross(glm::dvec3(t.position[1]) - glm::dvec3(t.position[0]),
-                                      glm::dvec3(t.position[2]) - glm::dvec3(t.position[0])));
 }
 
 std::vector<CellSite> place_by_area(const Scene& scene, const Object& object, std::uint32_t wanted) {

@@ -20,6 +20,8 @@ class Buffer {
   Buffer(std::string name, std::span<const T> data) : Buffer(std::move(name), data.size_bytes()) {
     if (!data.empty()) write(0, data.data(), data.size_bytes());
   }
+  template <class T>
+  Buffer(std::string name, const std::vector<T>& data) : Buffer(std::move(name), std::span<const T>(data)) {}
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;

@@ -54,8 +54,7 @@ std::vector<Emitter> find_emitters(const Scene& scene) {
     const Triangle& t = scene.triangles[i];
     const qtrace::Material& material = scene.materials[t.material];
     const double radiance = mean_radiance(material);
-    const double area = 0.5 * glm::length(glm::cross(glm::dvec3(t.position[1]) - glm::dvec3(t.position[0]),
-                                                     glm::dvec3(t.position[2]) - glm::dvec3(t.position[0])));
+    const double area = area_of(t);
     if (radiance > 0 && area > 0)
       emitters.push_back({i, area, radiance * area * (material.double_sided ? 2 : 1)});
   }
@@ -65,14 +64,12 @@ std::vector<Emitter> find_emitters(const Scene& scene) {
 Light make_light(const Scene& scene, const Emitter& emitter, double probability, double object_probability) {
   const Triangle& t = scene.triangles[emitter.triangle];
   const qtrace::Material& material = scene.materials[t.material];
-  const glm::dvec3 edge1 = glm::dvec3(t.position[1]) - glm::dvec3(t.position[0]);
-  const glm::dvec3 edge2 = glm::dvec3(t.position[2]) - glm::dvec3(t.position[0]);
   Light light{};
   light.vertex = vec4(t.position[0], 0);
-  light.edge1 = vec4(glm::vec3(edge1), ray_offset(t));
-  light.edge2 = vec4(glm::vec3(edge2), static_cast<float>(probability / emitter.area));
+  light.edge1 = vec4(t.position[1] - t.position[0], ray_offset(t));
+  light.edge2 = vec4(t.position[2] - t.position[0], static_cast<float>(probability / emitter.area));
   light.normal =
-      vec4(glm::vec3(glm::normalize(glm::cross(edge1, edge2))), static_cast<float>(object_probability));
+      vec4(glm::vec3(glm::normalize(area_vector(t.position))), static_cast<float>(object_probability));
   light.radiance = vec4(material.emission, material.double_sided ? 1.0F : 0.0F);
   light.link.y = t.object;
   return light;

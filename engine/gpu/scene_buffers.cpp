@@ -60,11 +60,6 @@ gpu::Material pack_material(const qtrace::Material& m) {
           vec4(f0, m.specular), vec4(roughness * roughness, 0, 0, 0)};
 }
 
-template <class T>
-Buffer upload(const char* name, const std::vector<T>& data) {
-  return Buffer(name, std::span<const T>(data));
-}
-
 std::vector<gpu::Material> pack_materials(const Scene& scene) {
   std::vector<gpu::Material> materials;
   for (const qtrace::Material& m : scene.materials) materials.push_back(pack_material(m));
@@ -79,11 +74,11 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh)
     : SceneBuffers(scene, bvh, build_light_table(scene)) {}
 
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights)
-    : nodes_(upload("BVH nodes", pack_nodes(bvh))),
-      shapes_(upload("triangle shapes", pack_shapes(scene, bvh))),
-      shades_(upload("triangle normals", pack_shades(scene, bvh, lights))),
-      materials_(upload("materials", pack_materials(scene))),
-      lights_(upload("lights", lights.lights)) {
+    : nodes_("BVH nodes", pack_nodes(bvh)),
+      shapes_("triangle shapes", pack_shapes(scene, bvh)),
+      shades_("triangle normals", pack_shades(scene, bvh, lights)),
+      materials_("materials", pack_materials(scene)),
+      lights_("lights", lights.lights) {
   features_.specular = is_specular(scene);
   features_.lights = static_cast<uint>(lights.lights.size());
   for (const qtrace::Material& m : scene.materials) {

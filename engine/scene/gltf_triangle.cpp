@@ -16,12 +16,6 @@ glm::dmat3 normal_transform(const glm::dmat3& m) {
   return sign * glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
 }
 
-// Twice the area along the normal. Exact enough to tell whether the float positions span an area at all.
-glm::dvec3 area_vector(const std::array<glm::vec3, 3>& position) {
-  const glm::dvec3 first(position[0]);
-  return glm::cross(glm::dvec3(position[1]) - first, glm::dvec3(position[2]) - first);
-}
-
 // Below float's resolution the direction of a normal is rounding noise, and float areas underflow.
 bool has_area(const std::array<glm::vec3, 3>& position, double twice_area) {
   constexpr double kMinRelativeHeight = 1e-7;

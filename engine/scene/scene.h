@@ -1,6 +1,7 @@
 // A scene as plain data in world space: what the loader makes and everything downstream reads.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -32,6 +33,15 @@ struct Triangle {
   std::uint32_t material = 0;
   std::uint32_t object = 0;
 };
+
+// Along the face normal, twice the triangle's area long; in double precision, which tells from float
+// positions whether they span an area at all.
+inline glm::dvec3 area_vector(const std::array<glm::vec3, 3>& position) {
+  const glm::dvec3 first(position[0]);
+  return glm::cross(glm::dvec3(position[1]) - first, glm::dvec3(position[2]) - first);
+}
+
+inline double area_of(const Triangle& triangle) { return 0.5 * glm::length(area_vector(triangle.position)); }
 
 // One mesh node. Its triangles stand together in Scene::triangles.
 struct Object {

@@ -2,6 +2,7 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/structs.h"
+#include "engine/tracer/tiles.h"
 
 #include <algorithm>
 #include <tuple>
@@ -13,14 +14,20 @@ std::uint64_t counter(const gpu::Statistics& block, gpu::uint statistic) {
   return (std::uint64_t{block.counters[2 * statistic + 1]} << 32) | block.counters[2 * statistic];
 }
 
-constexpr std::uint32_t kTile = 8;  // pixels along a work group's side
-
-std::uint32_t tiles(int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; }
-
 gpu::Statistics read_block(const gpu::Buffer& buffer) {
   gpu::Statistics block;
   buffer.read(0, &block, sizeof(block));
   return block;
+}
+
+void check_loops_of(const gpu::Statistics& block) {
+  if (counter(block, gpu::STATISTIC_LOOPS_CUT) == 0) return;
+  fail(
+      "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
+      "too few "
+      "loop iterations for these settings; lower rl.sites_per_object or max_bounces, or split large "
+      "overlapping meshes",
+      block.cut_pixel.x, block.cut_pixel.y);
 }
 
 // Variance of the mean of n samples from their sum and sum of squares.
@@ -63,20 +70,11 @@ void Film::reset() {
   statistics_.clear();
 }
 
-void Film::check_loops() const {
-  const gpu::Statistics block = read_block(statistics_);
-  if (counter(block, gpu::STATISTIC_LOOPS_CUT) == 0) return;
-  fail(
-      "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
-      "too few "
-      "loop iterations for these settings; lower rl.sites_per_object or max_bounces, or split large "
-      "overlapping meshes",
-      block.cut_pixel.x, block.cut_pixel.y);
-}
+void Film::check_loops() const { check_loops_of(read_block(statistics_)); }
 
 FrameStatistics Film::statistics() const {
-  check_loops();
   const gpu::Statistics block = read_block(statistics_);
+  check_loops_of(block);
   FrameStatistics s;
   s.paths = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
   s.rays = counter(block, gpu::STATISTIC_RAYS);

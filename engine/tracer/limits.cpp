@@ -22,8 +22,8 @@ void check_loop_budget(const gpu::DeviceInfo& device, const RenderSettings& sett
   const int hits = settings.max_bounces + 1;
   check(bins + sites <= kLoopBudget / 2 / hits,
         "a path of max_bounces {} over {} sites per object{} may need {} loop iterations, and the driver of "
-        "this device "
-        "({}) cuts loops after {}; lower max_bounces, rl.sites_per_object or the bins, or use another device",
+        "this device ({}) cuts loops after {}; lower max_bounces, rl.sites_per_object or the bins, or use "
+        "another device",
         settings.max_bounces, settings.rl.sites_per_object,
         sums_bins ? fmt::format(" and {} bins at glossy surfaces", bins) : "", (bins + sites) * hits,
         device.renderer, kLoopBudget);

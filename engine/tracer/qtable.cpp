@@ -34,11 +34,6 @@ std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
   return values;
 }
 
-template <class T>
-gpu::Buffer upload(const char* name, const std::vector<T>& data) {
-  return gpu::Buffer(name, std::span<const T>(data));
-}
-
 }  // namespace
 
 QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines,
@@ -53,8 +48,8 @@ QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::De
       initial_table_(settings.initial_table),
       seed_(seed),
       warnings_(sites.warnings),
-      sites_(upload("Voronoi sites", pack_sites(sites))),
-      ranges_(upload("site ranges", pack_ranges(sites))),
+      sites_("Voronoi sites", pack_sites(sites)),
+      ranges_("site ranges", pack_ranges(sites)),
       values_("Q values (sites x bins)", entries_ * sizeof(float)),
       visits_("Q visits (sites x bins)", entries_ * sizeof(std::uint32_t)),
       sums_("Q targets (sites x bins)", entries_ * sizeof(gpu::TargetSum)),

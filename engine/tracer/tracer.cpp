@@ -7,6 +7,7 @@
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
+#include "engine/tracer/tiles.h"
 
 #include <optional>
 #include <utility>
@@ -45,7 +46,6 @@ struct Tracer::State {
   }
 
   std::pair<std::uint32_t, std::uint32_t> groups() const {
-    const auto tiles = [](int pixels) { return static_cast<std::uint32_t>(pixels + 7) / 8; };
     return {tiles(settings.width), tiles(settings.height)};
   }
 
