@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/knob.h"
+#include "engine/core/rl_settings.h"
 
 #include <array>
 #include <cstdint>
@@ -10,10 +11,7 @@ namespace qtrace {
 
 enum class Sampler { bsdf, uniform, rl };
 enum class Nee { none, one_ray, two_ray };
-enum class UpdateRule { expected_sarsa, q_learning };
-enum class LearningRate { visits_per_bin };
-enum class SitePlacement { uv, area };
-enum class InitialTable { zero, random };
+enum class LightChoice { uniform, power, learned };
 
 template <>
 struct EnumNames<Sampler> {
@@ -24,63 +22,9 @@ struct EnumNames<Nee> {
   static constexpr std::array<std::string_view, 3> values{"none", "one_ray", "two_ray"};
 };
 template <>
-struct EnumNames<UpdateRule> {
-  static constexpr std::array<std::string_view, 2> values{"expected_sarsa", "q_learning"};
+struct EnumNames<LightChoice> {
+  static constexpr std::array<std::string_view, 3> values{"uniform", "power", "learned"};
 };
-template <>
-struct EnumNames<LearningRate> {
-  static constexpr std::array<std::string_view, 1> values{"visits_per_bin"};
-};
-template <>
-struct EnumNames<InitialTable> {
-  static constexpr std::array<std::string_view, 2> values{"zero", "random"};
-};
-template <>
-struct EnumNames<SitePlacement> {
-  static constexpr std::array<std::string_view, 2> values{"uv", "area"};
-};
-
-// The Q-table: its states (Voronoi cells), its actions (direction bins), how it learns and how it is sampled.
-struct RlSettings {
-  UpdateRule update = UpdateRule::expected_sarsa;
-  LearningRate learning_rate = LearningRate::visits_per_bin;
-  SitePlacement site_placement = SitePlacement::uv;
-  int sites_per_object = 100;
-  double cell_normal_threshold = 0.866;
-  int bins_theta = 10;
-  int bins_phi = 10;
-  InitialTable initial_table = InitialTable::zero;
-  double bsdf_fraction = 0.5;
-  double bin_floor = 0.1;
-
-  bool operator==(const RlSettings&) const = default;
-};
-
-template <class Visitor>
-void visit_knobs(Visitor& visit, RlSettings& rl) {
-  visit(KnobInfo{"update", "", "target of the temporal-difference update"}, rl.update);
-  visit(KnobInfo{"learning_rate", "", "how far one update moves a value"}, rl.learning_rate);
-  visit(KnobInfo{"site_placement", "", "where Voronoi sites stand: through the UV map, or by area"},
-        rl.site_placement);
-  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object", 1, 100000},
-        rl.sites_per_object);
-  visit(KnobInfo{"cell_normal_threshold", "cosine",
-                 "a site serves a hit point only if the cosine between their normals exceeds this", -1, 1},
-        rl.cell_normal_threshold);
-  visit(KnobInfo{"bins_theta", "bins", "direction bins along the polar angle, equal in cosine", 1, 64},
-        rl.bins_theta);
-  visit(KnobInfo{"bins_phi", "bins", "direction bins along the azimuth", 1, 64}, rl.bins_phi);
-  visit(KnobInfo{"initial_table", "",
-                 "values before anything is learned: zero, or random in [0, 1) (the report)"},
-        rl.initial_table);
-  visit(KnobInfo{"bsdf_fraction", "probability",
-                 "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
-        rl.bsdf_fraction);
-  // The lower end keeps every bin reachable whatever was learned; without it the estimator is biased.
-  visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",
-                 0.001, 1},
-        rl.bin_floor);
-}
 
 struct RenderSettings {
   int width = 512;
@@ -89,12 +33,25 @@ struct RenderSettings {
   int max_bounces = 5;
   int russian_roulette_start = 3;
   std::array<double, 3> environment{0, 0, 0};
+  double clamp_radiance = 0;
   Sampler sampler = Sampler::rl;
   Nee nee = Nee::none;
+  LightChoice lights = LightChoice::power;
+  double light_floor = 0.2;
   RlSettings rl;
 
   bool operator==(const RenderSettings&) const = default;
 };
+
+// Whether NEE picks its light from the table.
+inline bool learns_lights(const RenderSettings& settings) {
+  return settings.nee != Nee::none && settings.lights == LightChoice::learned;
+}
+
+// Whether there is a table at all: for directions, for lights, or for both.
+inline bool has_table(const RenderSettings& settings) {
+  return settings.sampler == Sampler::rl || learns_lights(settings);
+}
 
 template <class Visitor>
 void visit_knobs(Visitor& visit, RenderSettings& settings) {
@@ -112,9 +69,21 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
       settings.russian_roulette_start);
   visit(KnobInfo{"environment", "radiance, RGB", "constant radiance of rays that leave the scene", 0, 1e8},
         settings.environment);
+  visit(KnobInfo{"clamp_radiance", "radiance",
+                 "a sample with a channel above this is scaled down to it, which biases the image; 0: never",
+                 0, 1e30},
+        settings.clamp_radiance);
   visit(KnobInfo{"sampler", "", "how the next direction of a path is drawn"}, settings.sampler);
   visit(KnobInfo{"nee", "", "next event estimation: direct light by sampling the lights"}, settings.nee);
-  visit(KnobInfo{"rl", "", "the Q-table; used by sampler rl alone"}, settings.rl);
+  visit(KnobInfo{"lights", "",
+                 "how next event estimation picks a light (a connected emitting surface): all alike, by power, "
+                 "or by what the cell has learned of it"},
+        settings.lights);
+  // The lower end keeps every light reachable, whatever was learned.
+  visit(KnobInfo{"light_floor", "probability", "share of learned light choices that goes by power", 0.001, 1},
+        settings.light_floor);
+  visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},
+        settings.rl);
 }
 
 }  // namespace qtrace

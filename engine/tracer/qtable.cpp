@@ -8,23 +8,7 @@
 namespace qtrace {
 namespace {
 
-constexpr std::uint32_t kSidesPerSite = 2;
 constexpr std::uint32_t kGroupSize = 64;  // of learn.comp
-
-std::vector<gpu::Site> pack_sites(const CellSites& sites) {
-  std::vector<gpu::Site> packed;
-  packed.reserve(sites.sites.size());
-  for (const CellSite& s : sites.sites) packed.push_back({glm::vec4(s.position, 0), glm::vec4(s.normal, 0)});
-  return packed;
-}
-
-std::vector<gpu::SiteRange> pack_ranges(const CellSites& sites) {
-  std::vector<gpu::SiteRange> ranges;
-  for (std::size_t o = 0; o + 1 < sites.first.size(); ++o) {
-    ranges.push_back({sites.first[o], sites.first[o + 1] - sites.first[o]});
-  }
-  return ranges;
-}
 
 // Uniform in [0, 1). The generator's sequence is fixed by the C++ standard, its distributions are not.
 std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
@@ -38,34 +22,23 @@ std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
 
 QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines,
                std::uint32_t seed)
-    : QTable(place_sites(scene, settings.site_placement, settings.sites_per_object), settings, defines,
-             seed) {}
-
-QTable::QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines,
-               std::uint32_t seed)
-    : cells_(static_cast<std::uint32_t>(sites.sites.size()) * kSidesPerSite),
-      entries_(std::size_t{cells_} * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi)),
+    : cells_(scene, settings),
+      entries_(std::size_t{cells_.count()} * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi)),
       initial_table_(settings.initial_table),
       seed_(seed),
-      warnings_(sites.warnings),
-      sites_("Voronoi sites", pack_sites(sites)),
-      ranges_("site ranges", pack_ranges(sites)),
       values_("Q values (sites x bins)", entries_ * sizeof(float)),
       visits_("Q visits (sites x bins)", entries_ * sizeof(std::uint32_t)),
       sums_("Q targets (sites x bins)", entries_ * sizeof(gpu::TargetSum)),
       bin_starts_("Q distributions (sites x bins)", entries_ * sizeof(std::uint32_t)),
-      next_values_("Q next values (sites)", cells_ * sizeof(float)),
+      next_values_("Q next values (sites)", cells_.count() * sizeof(float)),
       learn_("learn.comp", defines) {}
 
 std::size_t QTable::entries(const Scene& scene, const RlSettings& settings) {
-  const auto count = [](int value) { return static_cast<std::size_t>(value); };
-  return scene.objects.size() * count(settings.sites_per_object) * kSidesPerSite *
-         count(settings.bins_theta) * count(settings.bins_phi);
+  return CellBuffers::count(scene, settings) * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi);
 }
 
 void QTable::bind() const {
-  sites_.bind_storage(gpu::BINDING_SITES);
-  ranges_.bind_storage(gpu::BINDING_SITE_RANGES);
+  cells_.bind();
   values_.bind_storage(gpu::BINDING_Q_VALUES);
   visits_.bind_storage(gpu::BINDING_Q_VISITS);
   sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
@@ -75,7 +48,7 @@ void QTable::bind() const {
 
 void QTable::learn() {
   bind();
-  learn_.dispatch((cells_ + kGroupSize - 1) / kGroupSize);
+  learn_.dispatch((cells_.count() + kGroupSize - 1) / kGroupSize);
 }
 
 void QTable::reset() {
@@ -88,7 +61,7 @@ void QTable::reset() {
 }
 
 std::size_t QTable::bytes() const {
-  return sites_.bytes() + ranges_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
+  return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
          bin_starts_.bytes() + next_values_.bytes();
 }
 

@@ -1,15 +1,14 @@
 // The Q-table on the device: sites, values, and the update between two frames.
 #pragma once
 
-#include "engine/cells/sites.h"
 #include "engine/core/settings.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/program.h"
 #include "engine/scene/scene.h"
+#include "engine/tracer/cell_buffers.h"
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace qtrace {
@@ -28,9 +27,8 @@ class QTable {
   // Entries of a table, before it is built: cells x bins.
   static std::size_t entries(const Scene& scene, const RlSettings& settings);
 
-  std::uint32_t cells() const { return cells_; }  // two for each site: front and back of the surface
+  const CellBuffers& cells() const { return cells_; }
   std::size_t bytes() const;
-  const std::vector<std::string>& warnings() const { return warnings_; }
 
   // For studies and tests of the table itself; entry = cell * bins + bin. set_values() keeps the visits.
   std::vector<float> values() const;
@@ -38,15 +36,10 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  QTable(const CellSites& sites, const RlSettings& settings, const gpu::Defines& defines, std::uint32_t seed);
-
-  std::uint32_t cells_;
+  CellBuffers cells_;
   std::size_t entries_;
   InitialTable initial_table_;
   std::uint32_t seed_;
-  std::vector<std::string> warnings_;
-  gpu::Buffer sites_;
-  gpu::Buffer ranges_;
   gpu::Buffer values_;
   gpu::Buffer visits_;
   gpu::Buffer sums_;

@@ -32,10 +32,13 @@ struct Tracer::State {
       table.emplace(scene, wanted.rl, shader_defines(wanted, buffers.features()), wanted.seed);
     }
     const gpu::Parameters parameters =
-        make_parameters(scene.camera, wanted, buffers.features().lights, table ? table->cells() : 0);
+        make_parameters(scene.camera, wanted, buffers.features().lights, table ? table->cells().count() : 0);
     parameter_block.write(0, &parameters, sizeof(parameters));
     warnings = buffers.warnings();
-    if (table) warnings.insert(warnings.end(), table->warnings().begin(), table->warnings().end());
+    if (table) {
+      const std::vector<std::string>& more = table->cells().warnings();
+      warnings.insert(warnings.end(), more.begin(), more.end());
+    }
   }
 
   void bind() const {
@@ -135,7 +138,7 @@ void Tracer::set_learning(bool learning) { state_->learning = learning; }
 
 const std::vector<std::string>& Tracer::warnings() const { return state_->warnings; }
 
-std::uint64_t Tracer::cells() const { return state_->table ? state_->table->cells() : 0; }
+std::uint64_t Tracer::cells() const { return state_->table ? state_->table->cells().count() : 0; }
 
 std::uint64_t Tracer::device_bytes() const {
   return state_->buffers.bytes() + state_->film.bytes() + state_->parameter_block.bytes() +

@@ -29,7 +29,7 @@ class Learning : public testing::Test {
     buffers_.emplace(scene_, build_median_bvh(scene_, 4));
     defines_ = shader_defines(settings_, buffers_->features());
     table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
-    const gpu::Parameters parameters = make_parameters(scene_.camera, settings_, 2, table_->cells());
+    const gpu::Parameters parameters = make_parameters(scene_.camera, settings_, 2, table_->cells().count());
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     statistics_.bind_storage(gpu::BINDING_STATISTICS);

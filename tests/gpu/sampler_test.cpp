@@ -90,7 +90,7 @@ class Stage {
     defines_ = shader_defines(settings_, buffers_.features());
     if (c.sampler == Sampler::rl) table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
     const gpu::Parameters parameters =
-        make_parameters(scene_.camera, settings_, buffers_.features().lights, table_ ? table_->cells() : 0);
+        make_parameters(scene_.camera, settings_, buffers_.features().lights, table_ ? table_->cells().count() : 0);
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     buffers_.bind();

@@ -1,0 +1,129 @@
+// The Q-table: its states (cells), its actions (direction bins), how it learns and how it is sampled.
+#pragma once
+
+#include "engine/core/knob.h"
+
+#include <array>
+
+namespace qtrace {
+
+enum class UpdateRule { expected_sarsa, sarsa, q_learning, monte_carlo, paper_listing };
+enum class LearningRate { visits_per_bin, visits_per_cell, constant, power };
+enum class CellKind { voronoi, grid };
+enum class SitePlacement { uv, area };
+enum class SiteSearch { tree, linear };
+enum class BinMap { cylindrical, concentric };
+enum class InitialTable { zero, constant, random, cosine };
+
+template <>
+struct EnumNames<UpdateRule> {
+  static constexpr std::array<std::string_view, 5> values{"expected_sarsa", "sarsa", "q_learning",
+                                                          "monte_carlo", "paper_listing"};
+};
+template <>
+struct EnumNames<LearningRate> {
+  static constexpr std::array<std::string_view, 4> values{"visits_per_bin", "visits_per_cell", "constant",
+                                                          "power"};
+};
+template <>
+struct EnumNames<CellKind> {
+  static constexpr std::array<std::string_view, 2> values{"voronoi", "grid"};
+};
+template <>
+struct EnumNames<SitePlacement> {
+  static constexpr std::array<std::string_view, 2> values{"uv", "area"};
+};
+template <>
+struct EnumNames<SiteSearch> {
+  static constexpr std::array<std::string_view, 2> values{"tree", "linear"};
+};
+template <>
+struct EnumNames<BinMap> {
+  static constexpr std::array<std::string_view, 2> values{"cylindrical", "concentric"};
+};
+template <>
+struct EnumNames<InitialTable> {
+  static constexpr std::array<std::string_view, 4> values{"zero", "constant", "random", "cosine"};
+};
+
+struct RlSettings {
+  UpdateRule update = UpdateRule::expected_sarsa;
+  LearningRate learning_rate = LearningRate::visits_per_bin;
+  double rate_constant = 0.05;
+  double rate_exponent = 0.7;
+  CellKind cells = CellKind::voronoi;
+  SitePlacement site_placement = SitePlacement::uv;
+  int sites_per_object = 100;
+  int total_sites = 0;
+  SiteSearch site_search = SiteSearch::tree;
+  double cell_normal_threshold = 0.866;
+  int grid_resolution = 16;
+  BinMap bin_map = BinMap::cylindrical;
+  int bins_theta = 10;
+  int bins_phi = 10;
+  InitialTable initial_table = InitialTable::zero;
+  double initial_value = 1;
+  double bsdf_fraction = 0.5;
+  double bin_floor = 0.1;
+
+  bool operator==(const RlSettings&) const = default;
+};
+
+template <class Visitor>
+void visit_knobs(Visitor& visit, RlSettings& rl) {
+  visit(KnobInfo{"update", "", "target of the temporal-difference update"}, rl.update);
+  visit(KnobInfo{"learning_rate", "",
+                 "how far one target moves a value: 1/(1 + visits) of the bin or of the cell, rate_constant, or "
+                 "(1 + visits of the bin)^-rate_exponent"},
+        rl.learning_rate);
+  visit(KnobInfo{"rate_constant", "", "learning rate of learning_rate constant", 1e-6, 1}, rl.rate_constant);
+  // The sum of rates must diverge and the sum of their squares must not (Robbins & Monro 1951).
+  visit(KnobInfo{"rate_exponent", "", "exponent of learning_rate power", 0.5, 1}, rl.rate_exponent);
+  visit(KnobInfo{"cells", "",
+                 "states: Voronoi cells on the surfaces, or a regular grid of boxes with six normals each"},
+        rl.cells);
+  visit(KnobInfo{"site_placement", "", "where Voronoi sites stand: through the UV map, or by area"},
+        rl.site_placement);
+  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object, unless total_sites is set", 1,
+                 100000},
+        rl.sites_per_object);
+  visit(KnobInfo{"total_sites", "sites",
+                 "Voronoi sites of the whole scene, shared among its objects by area (at least one each); 0: "
+                 "sites_per_object",
+                 0, 1e7},
+        rl.total_sites);
+  visit(KnobInfo{"site_search", "",
+                 "how a hit finds its site: tree, or linear through the object's sites (the report); both find "
+                 "the same"},
+        rl.site_search);
+  visit(KnobInfo{"cell_normal_threshold", "cosine",
+                 "a site serves a hit point only if the cosine between their normals exceeds this", -1, 1},
+        rl.cell_normal_threshold);
+  visit(KnobInfo{"grid_resolution", "boxes", "boxes of cells grid along the scene's longest side", 1, 256},
+        rl.grid_resolution);
+  visit(KnobInfo{"bin_map", "",
+                 "direction bins as patches of cosine and azimuth (the report), or of a square mapped "
+                 "concentrically; equal in solid angle either way"},
+        rl.bin_map);
+  visit(KnobInfo{"bins_theta", "bins", "rows of direction bins: along the cosine, or one side of the square",
+                 1, 64},
+        rl.bins_theta);
+  visit(KnobInfo{"bins_phi", "bins", "columns of direction bins: along the azimuth, or the other side", 1,
+                 64},
+        rl.bins_phi);
+  visit(KnobInfo{"initial_table", "",
+                 "values before anything is learned: zero, initial_value, random in [0, initial_value) (the "
+                 "report), or initial_value times the bin's mean cosine"},
+        rl.initial_table);
+  visit(KnobInfo{"initial_value", "radiance", "scale of an initial table other than zero", 1e-6, 1e6},
+        rl.initial_value);
+  visit(KnobInfo{"bsdf_fraction", "probability",
+                 "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
+        rl.bsdf_fraction);
+  // The lower end keeps every bin reachable whatever was learned; without it the estimator is biased.
+  visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",
+                 0.001, 1},
+        rl.bin_floor);
+}
+
+}  // namespace qtrace
