@@ -23,6 +23,15 @@ Bsdf bsdf_of(uint material) {
   return b;
 }
 
+// Whether nothing but the Lambert lobe is there.
+bool is_lambert(Bsdf b) {
+#ifdef HAS_SPECULAR
+  return b.metallic == 0.0 && b.dielectric_f0.w == 0.0;
+#else
+  return true;
+#endif
+}
+
 vec3 cosine_direction(vec2 u, vec3 normal) {
   float r = sqrt(u.x);
   float phi = 2.0 * PI * u.y;

@@ -1,5 +1,6 @@
 // How a path goes on: the run's direction sampler and its density.
 #include "bsdf.glsl"
+#include "lights.glsl"
 #if SAMPLER == SAMPLER_RL
 #include "qtable.glsl"
 #endif
@@ -9,10 +10,18 @@ struct Event {
   Surface surface;
   Bsdf bsdf;
   vec3 wo;
-#if SAMPLER == SAMPLER_RL
+#ifdef HAS_TABLE
   Cell cell;
 #endif
 };
+
+int cell_of(Event e) {
+#ifdef HAS_TABLE
+  return e.cell.index;
+#else
+  return NO_CELL;
+#endif
+}
 
 struct DirectionSample {
   vec3 direction;
@@ -49,7 +58,7 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
     bin = bin_of(to_cell(e.cell, e.surface.normal, result.direction));
   }
   result.pdf = mixture_pdf(e, result.direction, bin);
-  result.entry = has_cell ? cell * uint(BINS) + bin : NO_ENTRY;
+  result.entry = has_cell ? first_bin(cell) + bin : NO_ENTRY;
   return result;
 }
 
@@ -64,7 +73,7 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
   float phi = 2.0 * PI * to_unit(bits.z);
   vec3 local = vec3(sine * cos(phi), sine * sin(phi), cosine);
-  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, 0u);
+  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, NO_ENTRY);
 }
 
 #else
@@ -75,7 +84,7 @@ float direction_pdf(Event e, vec3 wi) {
 
 DirectionSample sample_direction(Event e, uvec4 bits) {
   vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
-  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), 0u);
+  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), NO_ENTRY);
 }
 
 #endif

@@ -3,19 +3,40 @@
 // draws from. One invocation per cell.
 #include "variants.glsl"
 #include "scene.glsl"
-#include "bins.glsl"
+#include "table.glsl"
+#include "rates.glsl"
 #include "statistics.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_Q_VALUES) restrict buffer QValueBuffer { float q_values[]; };
 layout(std430, binding = BINDING_Q_VISITS) restrict buffer QVisitBuffer { uint q_visits[]; };
 layout(std430, binding = BINDING_TARGET_SUMS) restrict buffer TargetSumBuffer { TargetSum target_sums[]; };
-layout(std430, binding = BINDING_BIN_STARTS) restrict writeonly buffer BinStartBuffer { uint bin_starts[]; };
+layout(std430, binding = BINDING_COLUMN_STARTS) restrict writeonly buffer ColumnStartBuffer { uint column_starts[]; };
 layout(std430, binding = BINDING_NEXT_VALUES) restrict writeonly buffer NextValueBuffer { float next_values[]; };
 
-// With alpha = 1 / (1 + visits(cell, bin)) (the report, section 4.3.2) a value is the mean of its targets:
-// the m targets of a frame, one after the other, end at (visits Q + their sum) / (visits + m), in any order.
-void apply_targets(uint entry) {
+// The columns of one kind in one row, and what happened to all of them.
+struct Columns {
+  uint first;
+  uint count;
+  float visits;   // before this frame
+  float targets;  // of this frame
+};
+
+Columns columns_at(uint first, uint count) {
+  Columns columns = Columns(first, count, 0.0, 0.0);
+#if LEARNING_RATE == RATE_VISITS_PER_CELL
+  uint i = 0u;
+  do {
+    columns.visits += float(q_visits[first + i]);
+    columns.targets += float(target_sums[first + i].count & ~TARGET_SATURATED);
+    ++i;
+  } while (i < count);
+  loop_was_cut = loop_was_cut || i < count;
+#endif
+  return columns;
+}
+
+void apply_targets(uint entry, Columns columns, float unit) {
   uint targets = target_sums[entry].count & ~TARGET_SATURATED;
   if (targets == 0u) return;
   uint high = target_sums[entry].high;
@@ -26,10 +47,9 @@ void apply_targets(uint entry) {
     high = TARGET_SATURATED;
     low = 0.0;
   }
-  float sum = (float(high) * 4294967296.0 + low) * TARGET_UNIT;
-  float visits = float(q_visits[entry]);
-  float all = visits + float(targets);
-  q_values[entry] = q_values[entry] * (visits / all) + sum / all;
+  float mean = (float(high) * 4294967296.0 + low) * unit / float(targets);
+  Step step = learning_step(float(q_visits[entry]), float(targets), columns.visits, columns.targets);
+  q_values[entry] = q_values[entry] * step.keep + mean * step.gain;
   // Above 2^24 visits alpha no longer changes in a float; the counter must not wrap.
   q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);
   target_sums[entry].low = 0u;
@@ -37,9 +57,11 @@ void apply_targets(uint entry) {
   target_sums[entry].count = 0u;
 }
 
-// Bin starts, as words of 32 bits (see bin_probability in qtable.glsl): every bin gets its equal part of the
+// Column starts, as words of 32 bits (see column_probability in columns.glsl). Every column gets its part of the
 // floor in whole words, so that none can vanish in rounding; the rest follows the values.
 const float FLOOR_RANGE = 4294966784.0;  // 2^32 - 512: float rounding cannot reach 2^32 from here
+
+#if SAMPLER == SAMPLER_RL
 
 void prepare_bins(uint first, float total) {
   float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.y : 1.0;
@@ -49,36 +71,86 @@ void prepare_bins(uint first, float total) {
   uint bin = 0u;
   do {
     float fraction = floor_share < 1.0 ? min(sum / total, 1.0) : 0.0;
-    bin_starts[first + bin] = bin * floor_width + uint(max(rest, 0.0) * fraction);
+    column_starts[first + bin] = bin * floor_width + uint(max(rest, 0.0) * fraction);
     sum += q_values[first + bin];
     ++bin;
   } while (bin < uint(BINS));
   loop_was_cut = loop_was_cut || bin < uint(BINS);
 }
 
-void main() {
-  uint cell = gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x;
-  if (cell >= parameters.path.w) return;
-  uint first = cell * uint(BINS);
+void learn_bins(uint cell) {
+  uint first = first_bin(cell);
+  Columns columns = columns_at(first, uint(BINS));
   float total = 0.0;
   float irradiance = 0.0;
   float best = 0.0;
   uint bin = 0u;
   do {
-    apply_targets(first + bin);
+    apply_targets(first + bin, columns, TARGET_UNIT);
     float value = q_values[first + bin];
     total += value;
-    // The mean cosine of a bin: cos(theta) is uniform over its row.
-    irradiance += value * (float(bin / uint(BINS_PHI)) + 0.5) / float(BINS_THETA) * BIN_SOLID_ANGLE;
+    irradiance += value * bin_cosine(bin) * BIN_SOLID_ANGLE;
     best = max(best, value);
     ++bin;
   } while (bin < uint(BINS));
-  loop_was_cut = bin < uint(BINS);
+  loop_was_cut = loop_was_cut || bin < uint(BINS);
   prepare_bins(first, total);
-#if UPDATE_RULE == UPDATE_Q_LEARNING
+#if UPDATE_RULE == UPDATE_Q_LEARNING || UPDATE_RULE == UPDATE_PAPER_LISTING
   next_values[cell] = best;
 #else
   next_values[cell] = irradiance / PI;
+#endif
+}
+
+#endif
+
+#if LIGHT_COLUMNS > 0
+
+// The floor goes by power. Its widths are rounded up to whole words, hence the word that each light takes from the
+// rest; and the powers add up to 1 but for float rounding, hence the slack.
+const float FLOOR_SLACK = 1e-4;
+
+void prepare_lights(uint first, float total) {
+  float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.w : 1.0;
+  float floor_words = FLOOR_RANGE * floor_share * (1.0 - FLOOR_SLACK);
+  float rest = max(FLOOR_RANGE * (1.0 - floor_share) - float(LIGHT_COLUMNS), 0.0);
+  float sum = 0.0;
+  uint floor_start = 0u;
+  uint light = 0u;
+  do {
+    float fraction = floor_share < 1.0 ? min(sum / total, 1.0) : 0.0;
+    column_starts[first + light] = floor_start + uint(rest * fraction);
+    sum += sqrt(q_values[first + light]);
+    floor_start += uint(floor_words * lights[light].choice.y) + 1u;
+    ++light;
+  } while (light < uint(LIGHT_COLUMNS));
+  loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
+}
+
+void learn_lights(uint cell) {
+  uint first = first_light(cell);
+  Columns columns = columns_at(first, uint(LIGHT_COLUMNS));
+  float total = 0.0;
+  uint light = 0u;
+  do {
+    apply_targets(first + light, columns, LIGHT_TARGET_UNIT);
+    total += sqrt(q_values[first + light]);
+    ++light;
+  } while (light < uint(LIGHT_COLUMNS));
+  loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
+  prepare_lights(first, total);
+}
+
+#endif
+
+void main() {
+  uint cell = gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x;
+  if (cell >= parameters.path.w) return;
+#if SAMPLER == SAMPLER_RL
+  learn_bins(cell);
+#endif
+#if LIGHT_COLUMNS > 0
+  learn_lights(cell);
 #endif
   if (loop_was_cut) report_cut(uvec2(cell, 0u));
 }

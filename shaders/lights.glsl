@@ -1,53 +1,89 @@
-// Emitting triangles, and points on them.
+// Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then one
+// of its triangles by power; then a point uniform on it.
 #include "random.glsl"
 #include "surface.glsl"
+#ifdef HAS_TABLE
+#include "cells.glsl"
+#include "columns.glsl"
+#else
+const int NO_CELL = -1;
+#endif
 
 struct LightSample {
-  vec3 direction;  // from the surface to the point, unit
-  vec3 radiance;   // towards the surface
-  float pdf;       // per solid angle, the choice of the light included
-  vec3 origin;     // shadow ray: from here ...
-  vec3 segment;    // ... to here, over t in (0, 1)
-  uint index;
+  vec3 direction;     // from the surface to the point, unit
+  vec3 radiance;      // towards the surface
+  float pdf;          // per solid angle, the choice of the light included
+  float probability;  // of that choice
+  uint light;
+  vec3 origin;        // shadow ray: from here ...
+  vec3 segment;       // ... to here, over t in (0, 1)
 };
 
-// Walker's alias method: one look-up whatever the number of lights. The product of word and count holds the
+// Walker's alias method: one look-up whatever the number of slots. The product of word and count holds the
 // slot in its high word and the fraction in its low one, so that no digit serves twice.
-uint choose_light(uint word) {
-  uint light;
+uint alias_slot(uint word, uint count, out uint fraction) {
+  uint slot;
+  umulExtended(word, count, slot, fraction);
+  return slot;
+}
+
+// `cell`: that of the surface, NO_CELL where it has none.
+uint choose_light(int cell, uint word) {
+#if LIGHT_COLUMNS > 0
+  if (cell != NO_CELL) return choose_column(first_light(uint(cell)), uint(LIGHT_COLUMNS), word);
+#endif
   uint fraction;
-  umulExtended(word, parameters.path.z, light, fraction);
-  return fraction <= lights[light].link.z ? light : lights[light].link.x;
+  uint slot = alias_slot(word, parameters.path.z, fraction);
+  return fraction <= lights[slot].link.z ? slot : lights[slot].link.x;
 }
 
-// Density per solid angle, seen from distance `t` under `direction`, of the point sampling below.
-float light_pdf(uint light, float t, vec3 direction) {
-  float cosine = abs(dot(lights[light].normal.xyz, direction));
-  return cosine > 0.0 ? lights[light].edge2.w * t * t / cosine : 0.0;
+float light_probability(int cell, uint light) {
+#if LIGHT_COLUMNS > 0
+  if (cell != NO_CELL) return column_probability(first_light(uint(cell)), uint(LIGHT_COLUMNS), light);
+#endif
+  return lights[light].choice.x;
 }
 
-// A point uniform on a chosen triangle; pdf 0 where it cannot send light here.
-LightSample sample_light(Surface s, uvec4 bits) {
-  uint index = choose_light(bits.x);
+uint choose_triangle(uint light, uint word) {
+  uint fraction;
+  uint triangle = lights[light].link.y + alias_slot(word, lights[light].link.w, fraction);
+  return fraction <= light_triangles[triangle].link.z ? triangle : light_triangles[triangle].link.x;
+}
+
+// Density per solid angle, seen from distance `t` under `direction`, of the choice of this point on its light.
+float point_pdf(uint triangle, float t, vec3 direction) {
+  float cosine = abs(dot(light_triangles[triangle].normal.xyz, direction));
+  return cosine > 0.0 ? light_triangles[triangle].edge2.w * t * t / cosine : 0.0;
+}
+
+// The same with the choice of the light, from a surface in `cell`.
+float light_pdf(int cell, uint triangle, float t, vec3 direction) {
+  return light_probability(cell, light_triangles[triangle].link.y) * point_pdf(triangle, t, direction);
+}
+
+// pdf is 0 where the point cannot send light here.
+LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
+  LightSample result;
+  result.light = choose_light(cell, bits.x);
+  result.probability = light_probability(cell, result.light);
+  uint index = choose_triangle(result.light, triangle_word);
   float root = sqrt(to_unit(bits.y));
   float along = to_unit(bits.z);
-  vec3 point = lights[index].vertex.xyz + root * (1.0 - along) * lights[index].edge1.xyz +
-               root * along * lights[index].edge2.xyz;
+  vec3 point = light_triangles[index].vertex.xyz + root * (1.0 - along) * light_triangles[index].edge1.xyz +
+               root * along * light_triangles[index].edge2.xyz;
   vec3 to_point = point - s.position;
   float t = length(to_point);
-  vec3 normal = lights[index].normal.xyz;
+  vec3 normal = light_triangles[index].normal.xyz;
 
-  LightSample result;
   result.direction = to_point / t;
   float facing = -dot(normal, result.direction);
-  bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && lights[index].radiance.w != 0.0));
-  result.radiance = lit ? lights[index].radiance.rgb : vec3(0.0);
-  result.pdf = lit ? light_pdf(index, t, result.direction) : 0.0;
+  bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && light_triangles[index].radiance.w != 0.0));
+  result.radiance = lit ? light_triangles[index].radiance.rgb : vec3(0.0);
+  result.pdf = lit ? result.probability * point_pdf(index, t, result.direction) : 0.0;
   result.origin = ray_origin(s, result.direction);
   // The segment ends off the light on the side that is looked at, by what the test at t = 1 can round off: it
   // grows with the coordinates of either end and with the distance.
-  float offset = max(max(lights[index].edge1.w, s.offset), OFFSET_FRACTION * t) * (facing < 0.0 ? -1.0 : 1.0);
+  float offset = max(max(light_triangles[index].edge1.w, s.offset), OFFSET_FRACTION * t) * (facing < 0.0 ? -1.0 : 1.0);
   result.segment = point + offset * normal - result.origin;
-  result.index = index;
   return result;
 }

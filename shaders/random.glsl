@@ -27,7 +27,8 @@ const uint BLOCK_CAMERA = 0u;
 const uint BLOCK_DIRECTION = 1u;  // mixture choice, direction, direction, lobe or bin
 const uint BLOCK_LIGHT = 2u;      // light, point, point, Russian roulette
 const uint BLOCK_TWO_RAY = 3u;    // unused, direction, direction, lobe
-const uint BLOCKS_PER_EVENT = 3u;
+const uint BLOCK_MORE = 4u;       // triangle of the light, rotation of the expectation (three)
+const uint BLOCKS_PER_EVENT = 4u;
 
 uvec4 random_bits(RandomKey key, uint block) {
   return pcg4d(uvec4(key.pixel, key.frame, block, key.seed));

@@ -5,6 +5,9 @@ layout(std430, binding = BINDING_NODES) restrict readonly buffer NodeBuffer { No
 layout(std430, binding = BINDING_SHAPES) restrict readonly buffer ShapeBuffer { TriangleShape shapes[]; };
 layout(std430, binding = BINDING_SHADES) restrict readonly buffer ShadeBuffer { TriangleShade shades[]; };
 layout(std430, binding = BINDING_MATERIALS) restrict readonly buffer MaterialBuffer { Material materials[]; };
+layout(std430, binding = BINDING_LIGHT_TRIANGLES) restrict readonly buffer LightTriangleBuffer {
+  LightTriangle light_triangles[];
+};
 layout(std430, binding = BINDING_LIGHTS) restrict readonly buffer LightBuffer { Light lights[]; };
 layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters parameters; };
 layout(location = LOCATION_FRAME) uniform uint frame_number;

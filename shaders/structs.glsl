@@ -30,14 +30,21 @@ struct Material {      // glTF metallic-roughness
   vec4 roughness;       // x: alpha = roughness^2 (y, z, w: unused)
 };
 
-// An emitting triangle. Chosen in proportion to its power by Walker's alias method.
-struct Light {
+// An emitting triangle, in the order of the lights that they belong to. Chosen within its light in proportion
+// to its power by Walker's alias method.
+struct LightTriangle {
   vec4 vertex;    // xyz: first vertex
-  vec4 edge1;     // w: length by which shadow rays end off the light
-  vec4 edge2;     // w: probability of choosing it / its area (per area)
-  vec4 normal;    // xyz: unit, out of the front face, w: probability of choosing any light of its object
+  vec4 edge1;     // w: length by which shadow rays end off the triangle
+  vec4 edge2;     // w: probability of choosing it within its light / its area (per area)
+  vec4 normal;    // xyz: unit, out of the front face
   vec4 radiance;  // rgb, w: 1 where the back face emits too
-  uvec4 link;     // x: alias, y: object, z: alias threshold, as a part of 2^32
+  uvec4 link;     // x: alias, y: light, z: alias threshold, as a part of 2^32
+};
+
+// A light: emitting triangles of one object that are connected. What next event estimation chooses among.
+struct Light {
+  vec4 choice;  // x: probability of choosing it where nothing is learned: by power, or uniform, y: by power
+  uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
 };
 
 // Centre of a Voronoi cell.
@@ -87,8 +94,9 @@ struct Parameters {
   vec4 camera_right;    // scaled by tan(fov / 2) * aspect
   vec4 camera_up;       // scaled by tan(fov / 2)
   vec4 camera_forward;  // unit
-  vec4 environment;     // rgb: constant radiance
-  vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold
+  vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light
+  vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
+  vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
 };
@@ -98,18 +106,19 @@ const int BINDING_NODES = 0;
 const int BINDING_SHAPES = 1;
 const int BINDING_SHADES = 2;
 const int BINDING_MATERIALS = 3;
-const int BINDING_LIGHTS = 4;
+const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
 const int BINDING_SITE_RANGES = 6;
 const int BINDING_Q_VALUES = 7;
 const int BINDING_Q_VISITS = 8;
 const int BINDING_TARGET_SUMS = 9;
-const int BINDING_BIN_STARTS = 10;
+const int BINDING_COLUMN_STARTS = 10;
 const int BINDING_NEXT_VALUES = 11;
 const int BINDING_SAMPLES = 12;
 const int BINDING_SUMS = 13;
 const int BINDING_STATISTICS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
+const int BINDING_LIGHTS = 16;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -124,10 +133,14 @@ const uint NO_LIGHT = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
 
-// 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it hold 1.7e13.
+// Fixed point of a target that is a radiance: 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it
+// hold 1.7e13.
 const float TARGET_UNIT = 1.0f / 1048576.0f;
-// One target is clamped here (2^28): as one step, far below TARGET_SATURATED.
-const float TARGET_LIMIT = 268435456.0f;
+// Of a target that is the square of a light's contribution, in units of the brightest light: 2^-36 resolves
+// contributions of 4e-6 of its radiance.
+const float LIGHT_TARGET_UNIT = 1.0f / 68719476736.0f;
+// One target is clamped to this many units (2^48): as one step, far below TARGET_SATURATED.
+const float TARGET_LIMIT = 281474976710656.0f;
 // A sum whose high word has reached this counts as this; the same bit of its count then stays set.
 const uint TARGET_SATURATED = 0x80000000u;
 

@@ -14,43 +14,31 @@ struct Path {
   vec3 direction;
   vec3 throughput;
   vec3 radiance;
-  float pdf;    // of `direction`, per solid angle
-  uint entry;   // of the Q-table that chose `direction`
-  uint rays;
-  uint segments;
-  uint lookups;
-  uint fallbacks;
-  uint updates;
-  uint saturated;
+  float pdf;   // of `direction`, per solid angle
+  int cell;    // of the surface that it left, NO_CELL where it has none
+  uint entry;  // of the Q-table that chose `direction`
+  Tally tally;
 };
 
-void learn(inout Path path, float target) {
-#if SAMPLER == SAMPLER_RL
-  // A target that is not finite belongs to a sample that is reported.
-  if (path.entry != NO_ENTRY && is_finite(target)) {
-    ++path.updates;
-    if (gather_target(path.entry, target)) ++path.saturated;
-  }
-#endif
-}
+#include "learning.glsl"
 
-void leave_scene(inout Path path, bool is_camera_ray) {
+void leave_scene(inout Path path, uint bounce) {
+  vec3 radiance = parameters.environment.rgb;
+  float weight = 0.0;
 #ifdef HAS_ENVIRONMENT
-  bool counted = NEE == NEE_TWO_RAY && !is_camera_ray;
-  if (!counted) path.radiance += path.throughput * parameters.environment.rgb;
+  weight = NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;
+  path.radiance += path.throughput * radiance * weight;
 #endif
-  learn(path, average(parameters.environment.rgb));
+  learn_leaving(path, bounce, radiance, weight);
 }
 
 // Emission at the hit, and the lesson of the ray that led here.
-void arrive(inout Path path, Event e, float t, bool is_camera_ray) {
+void arrive(inout Path path, Event e, Departure next, float t, uint bounce, RandomKey key) {
   vec3 emitted = emitted_radiance(e.surface);
-  float weight = is_camera_ray ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf);
+  float weight =
+      bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * emitted * weight;
-#if SAMPLER == SAMPLER_RL
-  float next = e.cell.index == NO_CELL ? 0.0 : next_value(e.surface, e.bsdf, e.wo, e.cell);
-  learn(path, average(emitted) + next);
-#endif
+  learn_arriving(path, e, next, bounce, emitted, weight, key);
 }
 
 // Survival probability of Russian roulette: at most 0.95, as in the report, so that paths end also where
@@ -58,21 +46,23 @@ void arrive(inout Path path, Event e, float t, bool is_camera_ray) {
 const float MAX_SURVIVAL = 0.95;
 
 // One scattering event. Returns whether the path goes on.
-bool scatter(inout Path path, Event e, uint bounce, RandomKey key) {
+bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey key) {
   uint block = bounce * BLOCKS_PER_EVENT;
-  path.radiance += path.throughput * direct_light(e, key, block, path.rays);
-  DirectionSample next = sample_direction(e, random_bits(key, block + BLOCK_DIRECTION));
-  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, next.direction);
-  if (reflected == vec3(0.0)) return false;
-  path.throughput *= reflected / next.pdf;
-  path.origin = ray_origin(e.surface, next.direction);
-  path.direction = next.direction;
-  path.pdf = next.pdf;
-  path.entry = next.entry;
+  vec3 direct = direct_light(e, key, block, path.tally);
+  path.radiance += path.throughput * direct;
+  learn_scattering(bounce, direct, next);
+  if (next.weight == vec3(0.0)) return false;
+  path.throughput *= next.weight;
+  path.origin = ray_origin(e.surface, next.direction.direction);
+  path.direction = next.direction.direction;
+  path.pdf = next.direction.pdf;
+  path.entry = next.direction.entry;
+  path.cell = cell_of(e);
   if (bounce + 1u > parameters.path.y) {
     float survival = min(max_component(path.throughput), MAX_SURVIVAL);
     if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
     path.throughput /= survival;
+    learn_survival(bounce, survival);
   }
   return true;
 }
@@ -82,10 +72,10 @@ Event event_at(inout Path path, Hit hit) {
   e.surface = surface_at(hit, path.direction);
   e.bsdf = bsdf_of(e.surface.material);
   e.wo = -path.direction;
-#if SAMPLER == SAMPLER_RL
+#ifdef HAS_TABLE
   e.cell = find_cell(e.surface);
-  ++path.lookups;
-  if (e.cell.index == NO_CELL) ++path.fallbacks;
+  ++path.tally.lookups;
+  if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
 #endif
   return e;
 }
@@ -97,13 +87,9 @@ Path trace(RandomKey key, vec2 position) {
   path.throughput = vec3(1.0);
   path.radiance = vec3(0.0);
   path.pdf = 0.0;
+  path.cell = NO_CELL;
   path.entry = NO_ENTRY;
-  path.rays = 0u;
-  path.segments = 0u;
-  path.lookups = 0u;
-  path.fallbacks = 0u;
-  path.updates = 0u;
-  path.saturated = 0u;
+  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
 
   // With two_ray, the last event's light needs no further ray of the path.
   uint last_ray = parameters.path.x - (NEE == NEE_TWO_RAY && parameters.path.x > 0u ? 1u : 0u);
@@ -111,21 +97,24 @@ Path trace(RandomKey key, vec2 position) {
   bool going_on = true;
   do {
     if (going_on) {
-      ++path.rays;
-      ++path.segments;
+      ++path.tally.rays;
+      ++path.tally.segments;
       Hit hit = closest_hit(path.origin, path.direction);
       if (hit.triangle == NO_TRIANGLE) {
-        leave_scene(path, bounce == 0u);
+        leave_scene(path, bounce);
         going_on = false;
       } else {
         Event e = event_at(path, hit);
-        arrive(path, e, hit.t, bounce == 0u);
-        going_on = bounce < parameters.path.x && scatter(path, e, bounce, key) && bounce < last_ray;
+        // Drawn also where the path ends: a rule may learn from it.
+        Departure next = depart(e, key, bounce);
+        arrive(path, e, next, hit.t, bounce, key);
+        going_on = bounce < parameters.path.x && scatter(path, e, next, bounce, key) && bounce < last_ray;
       }
       ++bounce;
     }
   } while (going_on);
   loop_was_cut = loop_was_cut || going_on;
+  learn_path(path);
   // A throughput that broke without meeting light would pass unnoticed.
   if (!is_finite(average(path.throughput))) path.radiance = path.throughput;
   return path;
@@ -139,7 +128,8 @@ void main() {
   vec2 jitter = random_units(key, BLOCK_CAMERA).xy;
   Path path = trace(key, vec2(pixel) + jitter);
   samples[index].radiance = vec4(path.radiance, 0.0);
-  samples[index].counts = uvec4(path.rays, path.segments, path.lookups | (path.fallbacks << 16u),
-                                path.updates | (path.saturated << 16u));
+  samples[index].counts = uvec4(path.tally.rays, path.tally.segments,
+                                path.tally.lookups | (path.tally.fallbacks << 16u),
+                                path.tally.updates | (path.tally.saturated << 16u));
   if (loop_was_cut) report_cut(pixel);
 }

@@ -1,78 +1,72 @@
 #include "engine/gpu/light_table.h"
 
+#include "engine/gpu/alias_table.h"
+#include "engine/gpu/light_groups.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <map>
 
 namespace qtrace::gpu {
 namespace {
-
-constexpr uint kWholeSlot = 0xffffffff;  // alias threshold of a light that fills its slot
 
 double mean_radiance(const qtrace::Material& material) {
   return (double{material.emission.r} + material.emission.g + material.emission.b) / 3.0;
 }
 
-// Walker 1977 with Vose's 1991 construction: thresholds and aliases of a discrete distribution.
-void build_aliases(std::vector<Light>& lights, const std::vector<double>& probability) {
-  const std::size_t n = lights.size();
-  std::vector<double> scaled(n);
-  std::vector<std::size_t> small;
-  std::vector<std::size_t> large;
-  for (std::size_t i = 0; i < n; ++i) {
-    scaled[i] = probability[i] * static_cast<double>(n);
-    (scaled[i] < 1 ? small : large).push_back(i);
-    lights[i].link.z = kWholeSlot;
-    lights[i].link.x = static_cast<uint>(i);
-  }
-  while (!small.empty() && !large.empty()) {
-    const std::size_t s = small.back();
-    const std::size_t l = large.back();
-    small.pop_back();
-    lights[s].link.z = static_cast<uint>(scaled[s] * kWholeSlot);
-    lights[s].link.x = static_cast<uint>(l);
-    scaled[l] -= 1 - scaled[s];
-    if (scaled[l] < 1) {
-      large.pop_back();
-      small.push_back(l);
-    }
-  }
+double power_of(const Scene& scene, std::uint32_t triangle) {
+  const Triangle& t = scene.triangles[triangle];
+  const qtrace::Material& material = scene.materials[t.material];
+  return mean_radiance(material) * area_of(t) * (material.double_sided ? 2 : 1);
 }
 
-struct Emitter {
-  std::size_t triangle;
-  double area;
-  double power;
-};
-
-std::vector<Emitter> find_emitters(const Scene& scene) {
-  std::vector<Emitter> emitters;
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    const Triangle& t = scene.triangles[i];
-    const qtrace::Material& material = scene.materials[t.material];
-    const double radiance = mean_radiance(material);
-    const double area = area_of(t);
-    if (radiance > 0 && area > 0)
-      emitters.push_back({i, area, radiance * area * (material.double_sided ? 2 : 1)});
+std::vector<std::uint32_t> find_emitters(const Scene& scene) {
+  std::vector<std::uint32_t> emitters;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    if (power_of(scene, i) > 0) emitters.push_back(i);
   }
   return emitters;
 }
 
-Light make_light(const Scene& scene, const Emitter& emitter, double probability, double object_probability) {
-  const Triangle& t = scene.triangles[emitter.triangle];
+// `probability`: of the triangle within its light.
+LightTriangle make_triangle(const Scene& scene, std::uint32_t index, double probability) {
+  const Triangle& t = scene.triangles[index];
   const qtrace::Material& material = scene.materials[t.material];
+  LightTriangle triangle{};
+  triangle.vertex = vec4(t.position[0], 0);
+  triangle.edge1 = vec4(t.position[1] - t.position[0], ray_offset(t));
+  triangle.edge2 = vec4(t.position[2] - t.position[0], static_cast<float>(probability / area_of(t)));
+  triangle.normal = vec4(glm::vec3(glm::normalize(area_vector(t.position))), 0);
+  triangle.radiance = vec4(material.emission, material.double_sided ? 1.0F : 0.0F);
+  return triangle;
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+// Appends a light of these triangles; its own choice is left open. Returns its power.
+double add_light(LightTable& table, const Scene& scene, const std::vector<std::uint32_t>& triangles) {
+  std::vector<double> powers;
+  for (const std::uint32_t i : triangles) powers.push_back(power_of(scene, i));
+  const double power = sum_of(powers);
+  const auto first = static_cast<uint>(table.triangles.size());
+  const std::vector<AliasSlot> slots = build_aliases(powers);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    LightTriangle triangle = make_triangle(scene, triangles[i], powers[i] / power);
+    triangle.link = uvec4(first + slots[i].alias, static_cast<uint>(table.lights.size()), slots[i].threshold, 0);
+    table.triangle_of[triangles[i]] = static_cast<uint>(table.triangles.size());
+    table.triangles.push_back(triangle);
+    const auto radiance = mean_radiance(scene.materials[scene.triangles[triangles[i]].material]);
+    table.brightest = std::max(table.brightest, static_cast<float>(radiance));
+  }
   Light light{};
-  light.vertex = vec4(t.position[0], 0);
-  light.edge1 = vec4(t.position[1] - t.position[0], ray_offset(t));
-  light.edge2 = vec4(t.position[2] - t.position[0], static_cast<float>(probability / emitter.area));
-  light.normal =
-      vec4(glm::vec3(glm::normalize(area_vector(t.position))), static_cast<float>(object_probability));
-  light.radiance = vec4(material.emission, material.double_sided ? 1.0F : 0.0F);
-  light.link.y = t.object;
-  return light;
+  light.link = uvec4(0, first, 0, static_cast<uint>(triangles.size()));
+  table.lights.push_back(light);
+  return power;
 }
 
 }  // namespace
@@ -83,24 +77,24 @@ float ray_offset(const Triangle& triangle) {
   return OFFSET_FRACTION * std::max({reach.x, reach.y, reach.z});
 }
 
-LightTable build_light_table(const Scene& scene) {
+LightTable build_light_table(const Scene& scene, LightChoice choice) {
   LightTable table;
-  table.light_of.assign(scene.triangles.size(), NO_LIGHT);
-  const std::vector<Emitter> emitters = find_emitters(scene);
-  double total = 0;
-  std::map<uint, double> object_power;
-  for (const Emitter& e : emitters) {
-    total += e.power;
-    object_power[scene.triangles[e.triangle].object] += e.power;
+  table.triangle_of.assign(scene.triangles.size(), NO_LIGHT);
+  std::vector<double> powers;
+  for (const auto& triangles : connected_groups(scene, find_emitters(scene))) {
+    powers.push_back(add_light(table, scene, triangles));
   }
-  std::vector<double> probability;
-  for (const Emitter& e : emitters) {
-    probability.push_back(e.power / total);
-    table.light_of[e.triangle] = static_cast<uint>(table.lights.size());
-    table.lights.push_back(
-        make_light(scene, e, probability.back(), object_power[scene.triangles[e.triangle].object] / total));
+  const double total = sum_of(powers);
+  const std::vector<double> chances =
+      choice == LightChoice::uniform ? std::vector<double>(powers.size(), 1.0) : powers;
+  const double all = sum_of(chances);
+  const std::vector<AliasSlot> slots = build_aliases(chances);
+  for (std::size_t i = 0; i < table.lights.size(); ++i) {
+    Light& light = table.lights[i];
+    light.choice = vec4(static_cast<float>(chances[i] / all), static_cast<float>(powers[i] / total), 0, 0);
+    light.link.x = slots[i].alias;
+    light.link.z = slots[i].threshold;
   }
-  build_aliases(table.lights, probability);
   return table;
 }
 

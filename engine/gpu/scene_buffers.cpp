@@ -45,7 +45,7 @@ std::vector<TriangleShade> pack_shades(const Scene& scene, const Bvh& bvh, const
   for (const uint i : bvh.order) {
     const Triangle& t = scene.triangles[i];
     shades.push_back({vec4(t.normal[0], as_float(t.material)), vec4(t.normal[1], as_float(t.object)),
-                      vec4(t.normal[2], as_float(lights.light_of[i]))});
+                      vec4(t.normal[2], as_float(lights.triangle_of[i]))});
   }
   return shades;
 }
@@ -66,21 +66,28 @@ std::vector<gpu::Material> pack_materials(const Scene& scene) {
   return materials;
 }
 
+SceneFeatures features_of(const Scene& scene, const LightTable& lights) {
+  return {std::ranges::any_of(scene.materials, has_specular_lobe), static_cast<uint>(lights.lights.size()),
+          lights.brightest};
+}
+
 }  // namespace
 
-bool is_specular(const Scene& scene) { return std::ranges::any_of(scene.materials, has_specular_lobe); }
+SceneFeatures find_features(const Scene& scene) {
+  return features_of(scene, build_light_table(scene, LightChoice::power));
+}
 
-SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh)
-    : SceneBuffers(scene, bvh, build_light_table(scene)) {}
+SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice lights)
+    : SceneBuffers(scene, bvh, build_light_table(scene, lights)) {}
 
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights)
-    : nodes_("BVH nodes", pack_nodes(bvh)),
+    : features_(features_of(scene, lights)),
+      nodes_("BVH nodes", pack_nodes(bvh)),
       shapes_("triangle shapes", pack_shapes(scene, bvh)),
       shades_("triangle normals", pack_shades(scene, bvh, lights)),
       materials_("materials", pack_materials(scene)),
+      light_triangles_("light triangles", lights.triangles),
       lights_("lights", lights.lights) {
-  features_.specular = is_specular(scene);
-  features_.lights = static_cast<uint>(lights.lights.size());
   for (const qtrace::Material& m : scene.materials) {
     if (!has_specular_lobe(m) || m.roughness >= kMinRoughness) continue;
     warnings_.push_back(fmt::format(
@@ -94,11 +101,13 @@ void SceneBuffers::bind() const {
   shapes_.bind_storage(BINDING_SHAPES);
   shades_.bind_storage(BINDING_SHADES);
   materials_.bind_storage(BINDING_MATERIALS);
+  light_triangles_.bind_storage(BINDING_LIGHT_TRIANGLES);
   lights_.bind_storage(BINDING_LIGHTS);
 }
 
 std::size_t SceneBuffers::bytes() const {
-  return nodes_.bytes() + shapes_.bytes() + shades_.bytes() + materials_.bytes() + lights_.bytes();
+  return nodes_.bytes() + shapes_.bytes() + shades_.bytes() + materials_.bytes() +
+         light_triangles_.bytes() + lights_.bytes();
 }
 
 }  // namespace qtrace::gpu

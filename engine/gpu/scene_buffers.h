@@ -15,15 +15,15 @@ namespace qtrace::gpu {
 // What a scene needs of the shaders; the rest is not compiled.
 struct SceneFeatures {
   bool specular = false;  // any material with a specular lobe
-  uint lights = 0;        // emitting triangles
+  uint lights = 0;        // connected emitting surfaces
+  float brightest = 0;    // mean radiance of the brightest
 };
 
-// Whether any material has a specular lobe.
-bool is_specular(const Scene& scene);
+SceneFeatures find_features(const Scene& scene);
 
 class SceneBuffers {
  public:
-  SceneBuffers(const Scene& scene, const Bvh& bvh);
+  SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice lights = LightChoice::power);
 
   void bind() const;
   std::size_t bytes() const;
@@ -39,6 +39,7 @@ class SceneBuffers {
   Buffer shapes_;
   Buffer shades_;
   Buffer materials_;
+  Buffer light_triangles_;
   Buffer lights_;
 };
 

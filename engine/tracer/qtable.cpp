@@ -2,67 +2,52 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/structs.h"
-
-#include <random>
-
 namespace qtrace {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;  // of learn.comp
-
-// Uniform in [0, 1). The generator's sequence is fixed by the C++ standard, its distributions are not.
-std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
-  std::mt19937 generator(seed);
-  std::vector<float> values(count);
-  for (float& value : values) value = static_cast<float>(generator() >> 8) * (1.0F / 16777216.0F);
-  return values;
-}
+constexpr std::uint32_t kGroupSize = 64;  // of learn.comp and initial_table.comp
 
 }  // namespace
 
-QTable::QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines,
-               std::uint32_t seed)
+QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t columns,
+               const gpu::Defines& defines)
     : cells_(scene, settings),
-      entries_(std::size_t{cells_.count()} * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi)),
-      initial_table_(settings.initial_table),
-      seed_(seed),
-      values_("Q values (sites x bins)", entries_ * sizeof(float)),
-      visits_("Q visits (sites x bins)", entries_ * sizeof(std::uint32_t)),
-      sums_("Q targets (sites x bins)", entries_ * sizeof(gpu::TargetSum)),
-      bin_starts_("Q distributions (sites x bins)", entries_ * sizeof(std::uint32_t)),
-      next_values_("Q next values (sites)", cells_.count() * sizeof(float)),
+      columns_(columns),
+      entries_(cells_.count() * columns),
+      values_("Q values (cells x columns)", entries_ * sizeof(float)),
+      visits_("Q visits (cells x columns)", entries_ * sizeof(std::uint32_t)),
+      sums_("Q targets (cells x columns)", entries_ * sizeof(gpu::TargetSum)),
+      starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t)),
+      next_values_("Q next values (cells)", cells_.count() * sizeof(float)),
+      initialize_("initial_table.comp", defines),
       learn_("learn.comp", defines) {}
-
-std::size_t QTable::entries(const Scene& scene, const RlSettings& settings) {
-  return CellBuffers::count(scene, settings) * static_cast<std::size_t>(settings.bins_theta * settings.bins_phi);
-}
 
 void QTable::bind() const {
   cells_.bind();
   values_.bind_storage(gpu::BINDING_Q_VALUES);
   visits_.bind_storage(gpu::BINDING_Q_VISITS);
   sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
-  bin_starts_.bind_storage(gpu::BINDING_BIN_STARTS);
+  starts_.bind_storage(gpu::BINDING_COLUMN_STARTS);
   next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
 }
 
 void QTable::learn() {
   bind();
-  learn_.dispatch((cells_.count() + kGroupSize - 1) / kGroupSize);
+  learn_.dispatch(groups());
 }
 
 void QTable::reset() {
-  for (gpu::Buffer* buffer : {&values_, &visits_, &sums_}) buffer->clear();
-  if (initial_table_ == InitialTable::random) {
-    const std::vector<float> values = random_values(entries_, seed_);
-    values_.write(0, values.data(), values.size() * sizeof(float));
-  }
+  for (gpu::Buffer* buffer : {&visits_, &sums_}) buffer->clear();
+  bind();
+  initialize_.dispatch(groups());
   learn();
 }
 
+std::uint32_t QTable::groups() const { return (cells_.count() + kGroupSize - 1) / kGroupSize; }
+
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
-         bin_starts_.bytes() + next_values_.bytes();
+         starts_.bytes() + next_values_.bytes();
 }
 
 std::vector<float> QTable::values() const { return values_.read_all<float>(); }

@@ -15,36 +15,38 @@ namespace qtrace {
 
 class QTable {
  public:
-  // `seed`: of the values of a random initial table.
-  QTable(const Scene& scene, const RlSettings& settings, const gpu::Defines& defines, std::uint32_t seed);
+  // `columns`: of a row (table_columns() of shader_variant.h).
+  QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines);
 
   void bind() const;
   // Applies the targets that a frame gathered and prepares the next frame's bins. Parameters must be bound.
   void learn();
-  // As at the start: initial values, nothing visited.
+  // As at the start: initial values, nothing visited. Parameters must be bound.
   void reset();
-
-  // Entries of a table, before it is built: cells x bins.
-  static std::size_t entries(const Scene& scene, const RlSettings& settings);
 
   const CellBuffers& cells() const { return cells_; }
   std::size_t bytes() const;
 
-  // For studies and tests of the table itself; entry = cell * bins + bin. set_values() keeps the visits.
+  std::size_t columns() const { return columns_; }
+
+  // For studies and tests of the table itself; entry = cell * columns + column, direction bins before lights
+  // (shaders/table.glsl). set_values() keeps the visits.
   std::vector<float> values() const;
   std::vector<std::uint32_t> visits() const;
   void set_values(std::span<const float> values);
 
  private:
+  std::uint32_t groups() const;
+
   CellBuffers cells_;
+  std::size_t columns_;
   std::size_t entries_;
-  InitialTable initial_table_;
-  std::uint32_t seed_;
   gpu::Buffer values_;
   gpu::Buffer visits_;
   gpu::Buffer sums_;
-  gpu::Buffer bin_starts_;
+  gpu::Buffer starts_;
   gpu::Buffer next_values_;
+  gpu::Program initialize_;
   gpu::Program learn_;
 };
 

@@ -4,21 +4,48 @@
 #include <string>
 
 namespace qtrace {
+namespace {
 
-gpu::Defines shader_defines(const RenderSettings& settings, const gpu::SceneFeatures& features) {
-  const auto number = [](auto choice) { return std::to_string(static_cast<int>(choice)); };
+template <class Choice>
+std::string number(Choice choice) {
+  return std::to_string(static_cast<int>(choice));
+}
+
+void define_table(gpu::Defines& defines, const RenderSettings& settings, const gpu::SceneFeatures& features) {
+  defines["HAS_TABLE"] = "1";
+  defines["LIGHT_COLUMNS"] = number(learns_lights(settings) ? features.lights : 0);
+  defines["LEARNING_RATE"] = number(settings.rl.learning_rate);
+  defines["INITIAL_TABLE"] = number(settings.rl.initial_table);
+  if (settings.sampler != Sampler::rl) return;
+  defines["BIN_MAP"] = number(settings.rl.bin_map);
+  defines["BINS_THETA"] = number(settings.rl.bins_theta);
+  defines["BINS_PHI"] = number(settings.rl.bins_phi);
+  defines["UPDATE_RULE"] = number(settings.rl.update);
+  defines["MAX_LESSONS"] = number(std::max(settings.max_bounces, 1));
+}
+
+}  // namespace
+
+RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatures& features) {
+  if (features.lights == 0) settings.nee = Nee::none;
+  return settings;
+}
+
+std::size_t table_columns(const RenderSettings& settings, const gpu::SceneFeatures& features) {
+  const int bins = settings.sampler == Sampler::rl ? settings.rl.bins_theta * settings.rl.bins_phi : 0;
+  return static_cast<std::size_t>(bins) + (learns_lights(settings) ? features.lights : 0);
+}
+
+gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatures& features) {
+  const RenderSettings settings = effective_settings(wanted, features);
   gpu::Defines defines;
   defines["SAMPLER"] = number(settings.sampler);
-  // Without lights there is nothing to sample; the path's own rays then count all there is.
-  defines["NEE"] = number(features.lights > 0 ? settings.nee : Nee::none);
+  defines["NEE"] = number(settings.nee);
+  defines["LIGHT_COLUMNS"] = "0";
   if (features.specular) defines["HAS_SPECULAR"] = "1";
   if (std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
     defines["HAS_ENVIRONMENT"] = "1";
-  if (settings.sampler == Sampler::rl) {
-    defines["BINS_THETA"] = number(settings.rl.bins_theta);
-    defines["BINS_PHI"] = number(settings.rl.bins_phi);
-    defines["UPDATE_RULE"] = number(settings.rl.update);
-  }
+  if (has_table(settings)) define_table(defines, settings, features);
   return defines;
 }
 

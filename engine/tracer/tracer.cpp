@@ -23,16 +23,17 @@ constexpr std::uint32_t kLeafTriangles = 4;
 struct Tracer::State {
   State(const gpu::Context& gpu_context, const Scene& scene, const RenderSettings& wanted)
       : context(gpu_context),
-        settings(wanted),
-        buffers(scene, build_median_bvh(scene, kLeafTriangles)),
+        buffers(scene, build_median_bvh(scene, kLeafTriangles), wanted.lights),
+        settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height),
         parameter_block("parameters", sizeof(gpu::Parameters)),
-        trace("trace.comp", shader_defines(wanted, buffers.features())) {
-    if (wanted.sampler == Sampler::rl) {
-      table.emplace(scene, wanted.rl, shader_defines(wanted, buffers.features()), wanted.seed);
+        trace("trace.comp", shader_defines(settings, buffers.features())) {
+    if (has_table(settings)) {
+      table.emplace(scene, settings.rl, table_columns(settings, buffers.features()),
+                    shader_defines(settings, buffers.features()));
     }
     const gpu::Parameters parameters =
-        make_parameters(scene.camera, wanted, buffers.features().lights, table ? table->cells().count() : 0);
+        make_parameters(scene.camera, settings, buffers.features(), table ? table->cells().count() : 0);
     parameter_block.write(0, &parameters, sizeof(parameters));
     warnings = buffers.warnings();
     if (table) {
@@ -67,8 +68,8 @@ struct Tracer::State {
   }
 
   const gpu::Context& context;
-  RenderSettings settings;
   gpu::SceneBuffers buffers;
+  RenderSettings settings;  // as they take effect
   Film film;
   gpu::Buffer parameter_block;
   gpu::Program trace;

@@ -23,7 +23,7 @@ class Tracer {
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
 
-  // Enqueues one sample per pixel and, for sampler rl, one update of the Q-table. Does not wait.
+  // Enqueues one sample per pixel and, where there is a table, one update of it. Does not wait.
   void render_frame();
   std::uint32_t frames() const;
 
@@ -35,10 +35,10 @@ class Tracer {
 
   const std::vector<std::string>& warnings()
       const;                         // what of scene and settings is rendered otherwise, and how
-  QTable* table();                   // null unless sampler is rl; for studies of the table
+  QTable* table();                   // null unless directions or lights are learned; for studies of the table
   void set_learning(bool learning);  // false: the table stays as it is
 
-  std::uint64_t cells() const;         // rows of the Q-table; 0 unless sampler is rl
+  std::uint64_t cells() const;         // rows of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers
 
  private:

@@ -28,8 +28,9 @@ class Learning : public testing::Test {
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     buffers_.emplace(scene_, build_median_bvh(scene_, 4));
     defines_ = shader_defines(settings_, buffers_->features());
-    table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
-    const gpu::Parameters parameters = make_parameters(scene_.camera, settings_, 2, table_->cells().count());
+    table_.emplace(scene_, settings_.rl, 4, defines_);
+    const gpu::Parameters parameters = 
+        make_parameters(scene_.camera, settings_, buffers_->features(), table_->cells().count());
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     statistics_.bind_storage(gpu::BINDING_STATISTICS);
@@ -53,7 +54,7 @@ class Learning : public testing::Test {
   static float next_value_in_view(const gpu::Defines& defines) {
     return probe<glm::vec4>(
                "vec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
-               kViewedSurface + "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s)));", 1,
+               kViewedSurface + "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s), vec3(1.0), vec3(0.0)));", 1,
                defines)[0]
         .x;
   }
@@ -102,7 +103,7 @@ TEST_F(Learning, BinsAreDrawnInProportionToTheirValues) {
   std::copy(taught.begin(), taught.end(), values.begin() + 2 * bins);
   table_->set_values(values);
   const auto drawn = probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
-                                      "result = vec4(bin_probability(index / 4u, index % 4u));",
+                                      "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
                                       static_cast<std::uint32_t>(values.size()), defines_);
   const double floor = settings_.rl.bin_floor;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -132,7 +133,7 @@ TEST_F(Learning, ExpectationOfAConstantTableIsReflectanceTimesRadiance) {
 TEST_F(Learning, QLearningTakesTheBestBin) {
   settings_.rl.update = UpdateRule::q_learning;
   defines_ = shader_defines(settings_, buffers_->features());
-  table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
+  table_.emplace(scene_, settings_.rl, 4, defines_);
   std::vector<float> values(table_->values().size(), 1.0F);
   for (std::size_t i = 2; i < values.size(); i += 4) values[i] = 7;
   table_->set_values(values);
@@ -168,7 +169,7 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
     GTEST_SKIP() << "no loop budget is known";
   RlSettings many = settings_.rl;
   many.sites_per_object = 100000;
-  const QTable table(scene_, many, defines_, 1);
+  const QTable table(scene_, many, 4, defines_);
   table.bind();
   const std::string search =
       kViewedSurface +

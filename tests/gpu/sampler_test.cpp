@@ -88,9 +88,11 @@ class Stage {
         settings_(make_settings(c)),
         buffers_(scene_, build_median_bvh(scene_, 4)) {
     defines_ = shader_defines(settings_, buffers_.features());
-    if (c.sampler == Sampler::rl) table_.emplace(scene_, settings_.rl, defines_, settings_.seed);
+    if (c.sampler == Sampler::rl) {
+      table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_);
+    }
     const gpu::Parameters parameters =
-        make_parameters(scene_.camera, settings_, buffers_.features().lights, table_ ? table_->cells().count() : 0);
+        make_parameters(scene_.camera, settings_, buffers_.features(), table_ ? table_->cells().count() : 0);
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     buffers_.bind();

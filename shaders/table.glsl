@@ -1,0 +1,17 @@
+// Layout of the table: a row for every cell, with a column for every direction bin and then one for every light
+// whose use is learned. A direction's value is the expected incident radiance, averaged over the channels; a
+// light's is the mean square of what it contributes when it is chosen, in units of the brightest light.
+#if SAMPLER == SAMPLER_RL
+#include "bins.glsl"
+#else
+const int BINS = 0;
+#endif
+const uint TABLE_COLUMNS = uint(BINS + LIGHT_COLUMNS);
+
+uint first_bin(uint cell) {
+  return cell * TABLE_COLUMNS;
+}
+
+uint first_light(uint cell) {
+  return cell * TABLE_COLUMNS + uint(BINS);
+}
