@@ -107,8 +107,8 @@ void learn_bins(uint cell) {
 #if LIGHT_COLUMNS > 0
 
 // The floor goes by power. Its widths are rounded up to whole words, hence the word that each light takes from the
-// rest; and the powers add up to 1 but for float rounding, hence the slack.
-const float FLOOR_SLACK = 1e-4;
+// rest; and each is rounded as a float, by 2^-24 of itself a few times, hence the slack.
+const float FLOOR_SLACK = 1e-6;
 
 void prepare_lights(uint first, float total) {
   float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.w : 1.0;

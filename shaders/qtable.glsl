@@ -17,7 +17,7 @@ float table_pdf(uint cell, uint bin) {
 
 #ifdef HAS_SPECULAR
 
-// Points of the estimate below: enough to keep its noise under that of the emission met by the same ray.
+// Points of the estimate below. Its noise averages out over the targets of a value, as that of the rays does.
 const uint EXPECTATION_SAMPLES = 16u;
 
 // The integral of Q f_r cos(theta) over the bins, averaged over the channels, where the BSDF has a lobe that may be

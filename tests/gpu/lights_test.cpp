@@ -1,0 +1,139 @@
+// Lights: what belongs together, how each rule chooses, and what a choice teaches.
+#include "engine/gpu/alias_table.h"
+#include "engine/gpu/light_table.h"
+#include "tests/support/learning_stage.h"
+#include "tests/support/statistics.h"
+
+#include <cmath>
+
+namespace qtrace::test {
+namespace {
+
+// A floor under four lights: two quads of one object, which do not touch; a double-sided one; and a tessellated one.
+Scene four_lights() {
+  Scene scene = lit_floor(0.8F, 10, 1, 1).scene;
+  const auto add_material = [&](float radiance, bool both) {
+    scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(radiance)));
+    scene.materials.back().double_sided = both;
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+  };
+  add_quad(scene, {3, 2, 0}, {1, 0, 0}, {0, 0, 1}, add_material(20, true));
+  const std::uint32_t pair = add_material(5, false);
+  add_quad(scene, {-3, 2, 0}, {1, 0, 0}, {0, 0, 2}, pair);
+  add_quad(scene, {-6, 2, 0}, {1, 0, 0}, {0, 0, 1}, pair);
+  // The last two quads become one object.
+  Object last = scene.objects.back();
+  scene.objects.pop_back();
+  for (std::uint32_t i = 0; i < last.triangle_count; ++i) {
+    scene.triangles[last.first_triangle + i].object = static_cast<std::uint32_t>(scene.objects.size() - 1);
+  }
+  scene.objects.back().triangle_count += last.triangle_count;
+  return scene;
+}
+
+TEST(LightTable, ALightIsAConnectedSurfaceOfOneObject) {
+  const gpu::LightTable table = gpu::build_light_table(four_lights(), LightChoice::power);
+  ASSERT_EQ(table.lights.size(), 4U);
+  EXPECT_EQ(table.triangles.size(), 8U);
+  EXPECT_EQ(table.brightest, 20);
+  const std::vector<double> powers{10 * 1, 20 * 1 * 2, 5 * 2, 5 * 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(table.lights[i].link.w, 2U);
+    EXPECT_NEAR(table.lights[i].choice.x, powers[i] / 65, 1e-6);
+    EXPECT_NEAR(table.lights[i].choice.y, powers[i] / 65, 1e-6);
+  }
+  const gpu::LightTable alike = gpu::build_light_table(four_lights(), LightChoice::uniform);
+  for (const gpu::Light& light : alike.lights) EXPECT_EQ(light.choice.x, 0.25F);
+  for (std::uint32_t i = 0; i < table.triangles.size(); ++i) {
+    EXPECT_EQ(table.triangles[i].link.y, i / 2);
+    EXPECT_NEAR(table.triangles[i].edge2.w, 0.5 / (i / 2 == 2 ? 1.0 : 0.5), 1e-6);
+  }
+}
+
+TEST(AliasTable, GivesEverySlotItsWeight) {
+  const std::vector<double> weights{1, 0.001, 5, 2, 2, 1e-9, 30};
+  const auto slots = gpu::build_aliases(weights);
+  std::vector<double> chance(weights.size(), 0.0);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const double own = slots[i].threshold / 4294967296.0;
+    chance[i] += own / static_cast<double>(slots.size());
+    chance[slots[i].alias] += (1 - own) / static_cast<double>(slots.size());
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) EXPECT_NEAR(chance[i], weights[i] / 40.001, 1e-6);
+}
+
+class LightChoices : public LearningStage {
+ protected:
+  void choose(LightChoice choice, Sampler sampler) {
+    scene_ = four_lights();
+    settings_.nee = Nee::one_ray;
+    settings_.lights = choice;
+    settings_.sampler = sampler;
+    if (choice == LightChoice::learned || sampler == Sampler::rl) {
+      build();
+    }
+  }
+
+  // Draws against the stated probabilities, of the cell of the viewed surface.
+  void expect_stated(const std::vector<double>& stated) {
+    constexpr std::uint32_t kDraws = 1 << 18;
+    const auto drawn = probe<glm::vec4>(
+        "vec4", {"variants.glsl", "nee.glsl", "camera.glsl"}, "",
+        kViewedSurface +
+            "int cell = find_cell(s).index;\n"
+            "uvec4 bits = random_bits(RandomKey(index, 1u, 9u), 2u);\n"
+            "LightSample light = sample_light(s, cell, bits, random_bits(RandomKey(index, 1u, 9u), 4u).x);\n"
+            "result = vec4(float(light.light), light.probability, light_probability(cell, light.light), 0.0);",
+        kDraws, defines_);
+    std::vector<double> counts(stated.size());
+    std::vector<double> expected;
+    for (const double p : stated) expected.push_back(p * kDraws);
+    for (const glm::vec4& v : drawn) {
+      const auto light = static_cast<std::size_t>(v.x);
+      ++counts[light];
+      EXPECT_NEAR(v.y, stated[light], 1e-5);
+      EXPECT_EQ(v.y, v.z);
+    }
+    EXPECT_GT(chi_squared_p(counts, expected), kFalseAlarm / 4);
+  }
+};
+
+TEST_F(LightChoices, ByPower) {
+  choose(LightChoice::power, Sampler::rl);
+  expect_stated({10 / 65.0, 40 / 65.0, 10 / 65.0, 5 / 65.0});
+}
+
+TEST_F(LightChoices, Uniform) {
+  settings_.lights = LightChoice::uniform;
+  choose(LightChoice::uniform, Sampler::rl);
+  buffers_.emplace(scene_, build_median_bvh(scene_, 4), LightChoice::uniform);
+  buffers_->bind();
+  expect_stated({0.25, 0.25, 0.25, 0.25});
+}
+
+// p = (1 - floor) sqrt(E[X^2]) / sum + floor * power, with a row of bins before the lights and without.
+TEST_F(LightChoices, Learned) {
+  for (const Sampler sampler : {Sampler::rl, Sampler::bsdf}) {
+    SCOPED_TRACE(enum_name(sampler));
+    choose(LightChoice::learned, sampler);
+    expect_stated({10 / 65.0, 40 / 65.0, 10 / 65.0, 5 / 65.0});  // nothing learned: by power
+    const std::size_t columns = table_->columns();
+    EXPECT_EQ(columns, sampler == Sampler::rl ? 8U : 4U);
+    std::vector<float> values(table_->values().size(), 1.0F);
+    const std::vector<float> squares{4, 0, 0.25F, 1e-8F};
+    for (std::size_t i = 0; i < values.size(); i += columns) {
+      std::copy(squares.begin(), squares.end(), values.begin() + static_cast<std::ptrdiff_t>(i + columns - 4));
+    }
+    table_->set_values(values);
+    const double floor = settings_.light_floor;
+    std::vector<double> stated;
+    const std::vector<double> power{10 / 65.0, 40 / 65.0, 10 / 65.0, 5 / 65.0};
+    for (std::size_t i = 0; i < 4; ++i) {
+      stated.push_back((1 - floor) * std::sqrt(squares[i]) / 2.5001 + floor * power[i]);
+    }
+    expect_stated(stated);
+  }
+}
+
+}  // namespace
+}  // namespace qtrace::test
