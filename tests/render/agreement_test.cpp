@@ -1,6 +1,5 @@
 // All methods estimate the same image, whatever their table holds.
-#include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "tests/render/comparison.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
@@ -11,42 +10,6 @@
 
 namespace qtrace::test {
 namespace {
-
-constexpr int kSize = 64;
-constexpr int kBlock = 16;
-constexpr int kBlocks = (kSize / kBlock) * (kSize / kBlock);
-// Where few paths carry most of the light, larger blocks bring the mean nearer to a normal distribution.
-constexpr int kLargeBlock = 32;
-constexpr int kLargeBlocks = (kSize / kLargeBlock) * (kSize / kLargeBlock);
-
-RenderSettings base_settings(std::uint32_t seed) {
-  RenderSettings settings;
-  settings.width = settings.height = kSize;
-  settings.max_bounces = 4;
-  settings.seed = seed;
-  settings.rl.sites_per_object = 40;
-  settings.rl.bins_theta = settings.rl.bins_phi = 6;
-  return settings;
-}
-
-Scene shipped(const char* name) {
-  return load_gltf(std::string(QTRACE_SOURCE_DIR) + "/configs/scenes/" + name);
-}
-
-// Compares blocks of pixels by their z-scores, at a chance of false alarm shared by `comparisons`.
-void expect_same_image(const Rendering& a, const Rendering& b, std::size_t comparisons, int size = kBlock) {
-  EXPECT_EQ(a.non_finite, 0U);
-  const int row = kSize / size;
-  for (int i = 0; i < row * row; ++i) {
-    const int x = i % row * size;
-    const int y = i / row * size;
-    const Estimate ea = block_estimate(a.image, x, y, size);
-    const Estimate eb = block_estimate(b.image, x, y, size);
-    EXPECT_LT(z_score(ea, eb), z_threshold(comparisons))
-        << "block at (" << x << ", " << y << "): " << ea.mean << " +- " << std::sqrt(ea.variance)
-        << " against " << eb.mean << " +- " << std::sqrt(eb.variance);
-  }
-}
 
 void expect_all_methods_agree(const Scene& scene, int frames, std::array<double, 3> environment = {0, 0, 0}) {
   const auto settings = [&](std::uint32_t seed, const Method& method) {
@@ -65,21 +28,7 @@ void expect_all_methods_agree(const Scene& scene, int frames, std::array<double,
 
 TEST(Agreement, AllMethodsOnOccluded) { expect_all_methods_agree(shipped("occluded.glb"), 96); }
 
-// A glossy room: metal, plastic, a second, dimmer and double-sided light, and light from outside.
-TEST(Agreement, AllMethodsOnGlossyMaterials) {
-  Scene scene = shipped("cornell_box.glb");
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    Material& m = scene.materials[i];
-    m.metallic = i % 3 == 0 ? 0.8F : 0.0F;
-    m.specular = i % 3 == 1 ? 0.7F : 1.0F;
-    m.roughness = i % 2 == 0 ? 0.5F : 0.7F;  // broad enough for uniform directions to find the highlights
-  }
-  scene.materials.push_back(lambert(glm::vec3(0.2F), glm::vec3(2, 4, 6)));
-  scene.materials.back().double_sided = true;
-  add_quad(scene, {1.2F, 2, 0}, {0.8F, 0.3F, 0}, {0, 0.8F, 0.4F},
-           static_cast<std::uint32_t>(scene.materials.size() - 1));
-  expect_all_methods_agree(scene, 96, {0.3, 0.2, 0.1});
-}
+TEST(Agreement, AllMethodsOnGlossyMaterials) { expect_all_methods_agree(glossy_room(), 96, {0.3, 0.2, 0.1}); }
 
 // Without the BSDF's share, all directions come from what was learned, as in the report.
 TEST(Agreement, TableAloneWhileItLearns) {
