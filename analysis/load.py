@@ -18,7 +18,7 @@ import pandas as pd
 
 from analysis.csv_file import LoadError, read_csv
 
-__all__ = ["LoadError", "Results", "load"]
+__all__ = ["LoadError", "Results", "load", "read_manifest"]
 
 METRICS = ["mse", "relmse", "relmse_trimmed", "mape"]
 SUMMARY_COLUMNS = ["run", "cell", "scene", "seed", "status", "frames"]
@@ -89,7 +89,7 @@ def _stack(folder: Path, runs: pd.DataFrame, name: str, needed: list[str]) -> pd
     return pd.concat(parts, ignore_index=True)
 
 
-def _read_manifest(file: Path) -> dict[str, Any]:
+def read_manifest(file: Path) -> dict[str, Any]:
     try:
         manifest = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -106,7 +106,7 @@ def load(results: str | os.PathLike[str]) -> Results:
         raise LoadError(f"{folder}: no such folder; the folder of an experiment is needed, like results/convergence")
     if not (folder / "summary.csv").is_file():
         raise LoadError(f"{folder}: has no summary.csv, so it is not the folder of an experiment")
-    experiment = _read_manifest(folder / "manifest.json")
+    experiment = read_manifest(folder / "manifest.json")
     summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS)
     summary.insert(2, "label", _labels(summary))
     finished = summary[summary.status == "finished"]

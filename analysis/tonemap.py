@@ -74,6 +74,11 @@ def sheet(pictures: list[np.ndarray], labels: list[str], columns: int, exposure:
     return figure
 
 
+def check_exposure(exposure: float) -> None:
+    if not math.isfinite(exposure) or abs(exposure) > 100:
+        raise command.AnalysisError("the exposure must be between -100 and 100 stops")
+
+
 def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("images", metavar="IN.exr", type=Path, nargs="+", help="with channels R, G, B")
@@ -92,8 +97,7 @@ def _check(options: argparse.Namespace) -> None:
         raise command.AnalysisError(f"{len(options.images)} images need as many labels, not {len(options.label)}")
     if options.columns < 1:
         raise command.AnalysisError("a sheet needs one column at least")
-    if not math.isfinite(options.exposure) or abs(options.exposure) > 100:
-        raise command.AnalysisError("the exposure must be between -100 and 100 stops")
+    check_exposure(options.exposure)
 
 
 def main(arguments: list[str] | None = None) -> None:

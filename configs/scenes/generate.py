@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Models the test scenes and writes them as simple, occluded, cornell_box .glb.
+"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights .glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
 metres, y is up, colours are linear.
@@ -13,6 +13,7 @@ from pathlib import Path
 
 from gltf_writer import Camera, Material, Object, write_glb
 from models import head, teapot
+from rooms import CAMERA as HOUSE_CAMERA, many_lights
 from shapes import Vec, box, rectangle
 from unwrap import Island, Mesh, pack
 
@@ -127,7 +128,8 @@ def main() -> None:
     for name, camera, objects in (
             ("simple", ROOM_CAMERA, simple()),
             ("occluded", ROOM_CAMERA, occluded()),
-            ("cornell_box", CORNELL_CAMERA, cornell_box())):
+            ("cornell_box", CORNELL_CAMERA, cornell_box()),
+            ("many_lights", HOUSE_CAMERA, many_lights())):
         size = write_glb(out / f"{name}.glb", name, camera, objects)
         triangles = sum(len(o.mesh.triangles) for o in objects)
         print(f"{name}.glb: {len(objects)} objects, {triangles} triangles, {size} bytes")

@@ -56,7 +56,7 @@ class Camera:
     """Pinhole camera, y up, square image; angle in degrees, the rest in metres."""
 
     eye: Sequence[float]
-    target: Sequence[float]  # straight ahead (no x offset), so that it only pitches
+    target: Sequence[float]
     vertical_fov: float
 
     def to_json(self) -> dict[str, Any]:
@@ -65,13 +65,14 @@ class Camera:
             "znear": 0.01, "zfar": 100}}
 
     def node(self) -> dict[str, Any]:
-        """A glTF camera looks along -z; pitch it about x towards the target."""
+        """A glTF camera looks along -z: pitch it about x, then turn it about y, towards the target."""
         x, y, z = (t - e for t, e in zip(self.target, self.eye))
-        assert x == 0 and z < 0
+        pitch, turn = math.atan2(y, math.hypot(x, z)) / 2, math.atan2(-x, -z) / 2
+        quaternion = (math.cos(turn) * math.sin(pitch), math.sin(turn) * math.cos(pitch),
+                      -math.sin(turn) * math.sin(pitch), math.cos(turn) * math.cos(pitch))
         node: dict[str, Any] = {"name": "camera", "translation": list(self.eye)}
-        if y != 0:
-            half = math.atan2(y, -z) / 2
-            node["rotation"] = [round(math.sin(half), 9), 0, 0, round(math.cos(half), 9)]
+        if any(quaternion[:3]):
+            node["rotation"] = [round(q, 9) or 0 for q in quaternion]
         return {**node, "camera": 0}
 
 

@@ -76,6 +76,7 @@ void expect_same_hits(const Scene& scene) {
 TEST(Traversal, AgreesWithTheOracle) {
   expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb"));
   expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb"));
+  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb"));
 }
 
 TEST(Traversal, OracleAgreesWithExhaustiveSearch) {

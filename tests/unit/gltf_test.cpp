@@ -193,7 +193,23 @@ TEST(GltfScenesTest, OwnScenesLoadWithoutWarnings) {
     EXPECT_TRUE(scene.warnings.empty()) << entry.path() << ::testing::PrintToString(scene.warnings);
     for (const Object& object : scene.objects) EXPECT_TRUE(object.has_uv) << entry.path() << object.name;
   }
-  EXPECT_GE(count, 3U);
+  EXPECT_GE(count, 4U);
+}
+
+// The study of light choices rests on it: a lamp per room, each its own object, none far brighter than another.
+TEST(GltfScenesTest, ManyLightsHasALampInEachOfItsRooms) {
+  const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb");
+  std::vector<float> powers;
+  for (const Object& object : scene.objects) {
+    const Triangle& first = scene.triangles[object.first_triangle];
+    const glm::vec3 emission = scene.materials[first.material].emission;
+    EXPECT_EQ(object.name.starts_with("lamp_"), emission != glm::vec3(0)) << object.name;
+    if (emission != glm::vec3(0)) powers.push_back(glm::dot(emission, glm::vec3(0.2126F, 0.7152F, 0.0722F)));
+  }
+  EXPECT_EQ(powers.size(), 64U);
+  const auto [dimmest, brightest] = std::minmax_element(powers.begin(), powers.end());
+  EXPECT_LE(*brightest, 3.001F * *dimmest);
+  EXPECT_GE(*brightest, 2 * *dimmest);
 }
 
 }  // namespace
