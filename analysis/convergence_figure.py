@@ -12,7 +12,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FuncFormatter
 
 from analysis import style
 from analysis.command import AnalysisError
@@ -33,7 +33,8 @@ FLOOR_REACH = 100  # a floor this much below all curves is named rather than dra
 BAND_REACH = 4     # bands may widen the axis by this factor; few seeds can give bands of many decades
 
 
-def _axis_range(points: pd.DataFrame, floors: list[float]) -> tuple[float, float]:
+def axis_range(points: pd.DataFrame, floors: list[float]) -> tuple[float, float]:
+    """Of a logarithmic axis: all means and near floors, and of the bands what leaves the means room."""
     means = points["mean"][points["mean"] > 0]
     lowest, highest = means.min(), means.max()
     bottom = np.nanmin([lowest, max(points.low.min(), lowest / BAND_REACH)])
@@ -79,25 +80,16 @@ def _draw_floors(axes: Axes, floors: list[float], with_text: bool) -> None:
         axes.annotate(f"reference's own noise: {values}, below this axis ↓", (0, 0), xycoords="axes fraction", **note)
 
 
-def _format_axis(axis: matplotlib.axis.Axis, low: float, high: float) -> None:
-    """Plain numbers; 1, 2, 5 as ticks where whole decades would be too few to read values from."""
-    steps = (1, 2, 5) if high / low < 1000 else (1,)
-    axis.set_major_locator(LogLocator(10, subs=steps, numticks=12))
-    axis.set_minor_locator(NullLocator() if len(steps) > 1 else LogLocator(10, subs=range(2, 10), numticks=12))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(FuncFormatter(lambda *_: ""))
-
-
 def _format_panel(axes: Axes, points: pd.DataFrame, x: str, y_range: tuple[float, float]) -> None:
     base = 2 if x == "spp" else 10  # snapshots are at powers of two
     axes.set_xscale("log", base=base)
     axes.set_yscale("log")
     axes.set_ylim(y_range)
-    _format_axis(axes.yaxis, *y_range)
+    style.format_log_axis(axes.yaxis, *y_range)
     if x == "spp":
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     else:
-        _format_axis(axes.xaxis, points[x].min(), points[x].max())
+        style.format_log_axis(axes.xaxis, points[x].min(), points[x].max())
     axes.set_xlabel(X_AXES[x])
 
 
@@ -122,10 +114,11 @@ def _span(values: pd.Series, unit: str) -> str:
     return f"{count} {unit}" + ("" if count == "1" else "s")
 
 
-def _title(results: Results, points: pd.DataFrame) -> str:
-    title = f"{results.name}: {_span(points.seeds, 'seed')}, {_span(results.finished.frames, 'frame')}"
+def title(results: Results, points: pd.DataFrame) -> str:
+    """What was run: the experiment's name, and how many seeds and frames."""
+    text = f"{results.name}: {_span(points.seeds, 'seed')}, {_span(results.finished.frames, 'frame')}"
     finished = len(results.finished)
-    return title if finished == results.planned_runs else f"{title}, {finished} of {results.planned_runs} runs"
+    return text if finished == results.planned_runs else f"{text}, {finished} of {results.planned_runs} runs"
 
 
 def _caption(results: Results, points: pd.DataFrame, floor_column: str | None) -> str:
@@ -151,14 +144,14 @@ def convergence_figure(results: Results, metric: str) -> Figure:
     scenes = list(dict.fromkeys(points.scene))
     with matplotlib.rc_context(style.RC):
         figure = Figure(figsize=(WIDTH, ROW_HEIGHT * len(scenes) + 0.8), layout="constrained")
-        figure.suptitle(_title(results, points), fontsize=13)
+        figure.suptitle(title(results, points), fontsize=13)
         figure.supxlabel(_caption(results, points, floor_column), fontsize=8.5, color="0.25")
         grid = figure.subplots(len(scenes), len(X_AXES), squeeze=False)
         any_floor = False
         for scene, row in zip(scenes, grid):
             here = points[points.scene == scene]
             floors = _floor_values(results.convergence[results.convergence.scene == scene], floor_column)
-            y_range = _axis_range(here, floors)
+            y_range = axis_range(here, floors)
             for x, axes in zip(X_AXES, row):
                 _draw_cells(axes, here, x, styles)
                 _format_panel(axes, here, x, y_range)

@@ -80,3 +80,10 @@ def over_seeds(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
         rows.append((scene, label, cell, frame, group.spp.iloc[0], group.elapsed_s.mean(), error.mean, error.low,
                      error.high, error.count, bool(group.at_reference_floor.any())))
     return pd.DataFrame(rows, columns=POINT_COLUMNS)
+
+
+def final_over_seeds(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
+    """A row per cell: `over_seeds` of the last snapshot of each run. The metric `relmse_x_s` is the run's relMSE
+    times its own seconds, as in the tables of `qtrace run`."""
+    last = convergence[convergence.frame == convergence.groupby("run").frame.transform("max")]
+    return over_seeds(last.assign(relmse_x_s=last.relmse * last.elapsed_s), metric)

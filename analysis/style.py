@@ -1,8 +1,11 @@
-"""How curves look: told apart by colour, by marker and, from the ninth on, by their dashes."""
+"""How curves look: told apart by colour, by marker and, from the ninth on, by their dashes; and logarithmic axes."""
 
 from __future__ import annotations
 
 from typing import Any, Iterable
+
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 # Okabe and Ito 2008, "Color Universal Design"; dark and distant ones first, as yellow is faint on white.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442"]
@@ -32,3 +35,14 @@ def line_styles(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
     return {label: {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)],
                     "linestyle": DASHES[i // len(COLOURS) % len(DASHES)]}
             for i, label in enumerate(dict.fromkeys(labels))}
+
+
+def format_log_axis(axis: Axis, low: float, high: float) -> None:
+    """Plain numbers; 1, 2, 5 as ticks where whole decades would be too few to read values from, and even steps
+    within less than a decade."""
+    steps = (1, 2, 5) if high / low < 1000 else (1,)
+    few = MaxNLocator(5, steps=[1, 2, 5, 10])
+    axis.set_major_locator(LogLocator(10, subs=steps, numticks=12) if high / low >= 10 else few)
+    axis.set_minor_locator(NullLocator() if len(steps) > 1 else LogLocator(10, subs=range(2, 10), numticks=12))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(FuncFormatter(lambda *_: ""))

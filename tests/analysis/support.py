@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import struct
 import sys
 import tempfile
 import unittest
@@ -71,6 +72,24 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
     manifest = {"status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
     (folder / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
     return folder
+
+
+def write_exr(file: Path, value: float, spp: int, side: int = 4) -> None:
+    """A square grey image without compression, as OpenEXR's "File Layout" has it."""
+    def attribute(name: str, kind: str, data: bytes) -> bytes:
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
+
+    channels = b"".join(name + b"\0" + struct.pack("<iIii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    header = struct.pack("<ii", 20000630, 2) + b"".join([
+        attribute("channels", "chlist", channels), attribute("compression", "compression", b"\0"),
+        attribute("dataWindow", "box2i", struct.pack("<4i", 0, 0, side - 1, side - 1)),
+        attribute("spp", "string", str(spp).encode())]) + b"\0"
+    line = struct.pack(f"<{3 * side}f", *[value] * 3 * side)
+    first = len(header) + 8 * side
+    offsets = [first + y * (8 + len(line)) for y in range(side)]
+    lines = b"".join(struct.pack("<ii", y, len(line)) + line for y in range(side))
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_bytes(header + struct.pack(f"<{side}Q", *offsets) + lines)
 
 
 class FolderTest(unittest.TestCase):

@@ -4,6 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace qtrace {
 namespace {
 
@@ -196,7 +198,8 @@ TEST(GltfScenesTest, OwnScenesLoadWithoutWarnings) {
   EXPECT_GE(count, 4U);
 }
 
-// The study of light choices rests on it: a lamp per room, each its own object, none far brighter than another.
+// The study of light choices rests on it: a lamp per room, each its own object, none far brighter than
+// others.
 TEST(GltfScenesTest, ManyLightsHasALampInEachOfItsRooms) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb");
   std::vector<float> powers;

@@ -1,0 +1,128 @@
+"""The figure holds what the runs ended with: points, bars, their order and words."""
+
+from support import FolderTest, METHODS, SECONDS, SNAPSHOTS, relmse, write_results
+
+import numpy as np
+from matplotlib.text import Text
+
+from analysis.ablation_figure import ablation_figure, main
+from analysis.load import load
+from analysis.statistics import estimate, final_over_seeds
+
+LAST = SNAPSHOTS[-1]
+
+
+def products(method: str, scene: str) -> list[float]:
+    return [relmse(method, seed, LAST, scene) * (SECONDS[method] * LAST + 0.01 * seed) for seed in (1, 2, 3)]
+
+
+def errors(method: str, scene: str) -> list[float]:
+    return [relmse(method, seed, LAST, scene) for seed in (1, 2, 3)]
+
+
+def points(axes) -> dict[int, float]:
+    """The drawn means by line, filled and hollow ones."""
+    drawn = {}
+    for line in axes.lines:
+        if line.get_marker() == "o":
+            drawn.update(zip(line.get_ydata().tolist(), line.get_xdata().tolist()))
+    return drawn
+
+
+def texts(figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(Text) if text.get_visible())
+
+
+class FinalTest(FolderTest):
+    def test_last_snapshot_of_each_run_and_its_own_seconds(self) -> None:
+        convergence = load(write_results(self.results)).convergence
+        for metric, values in {"relmse": errors, "relmse_x_s": products}.items():
+            rows = final_over_seeds(convergence, metric)
+            self.assertEqual(list(rows.label), list(METHODS) * 2)
+            self.assertEqual(set(rows.frame), {LAST})
+            for row in rows.itertuples():
+                wanted = estimate(values(row.label, row.scene))
+                np.testing.assert_allclose((row.mean, row.low, row.high), (wanted.mean, wanted.low, wanted.high))
+
+    def test_runs_of_different_length_end_where_they_end(self) -> None:
+        convergence = load(write_results(self.results)).convergence
+        short = convergence[(convergence.label != "RL") | (convergence.frame <= 4)]
+        rows = final_over_seeds(short, "relmse")
+        self.assertEqual(list(rows.frame), [8, 8, 4, 8, 8, 4])
+
+
+class FigureTest(FolderTest):
+    def test_points_and_bars_in_the_order_of_the_sweep(self) -> None:
+        results = load(write_results(self.results))
+        for scene in ("simple", "occluded"):
+            left, right = ablation_figure(results, scene).axes
+            self.assertEqual([label.get_text() for label in left.get_yticklabels()], list(METHODS))
+            bottom, top = left.get_ylim()
+            self.assertGreater(bottom, top)  # line 0 on top
+            for axes, values in ((left, errors), (right, products)):
+                self.assertEqual(axes.get_xscale(), "log")
+                bars = axes.collections[0].get_segments()
+                for i, method in enumerate(METHODS):
+                    wanted = estimate(values(method, scene))
+                    self.assertAlmostEqual(points(axes)[i], wanted.mean, places=12)
+                    np.testing.assert_allclose(bars[i], [(wanted.low, i), (wanted.high, i)], rtol=1e-12)
+
+    def test_all_means_lie_inside_the_axes_whatever_the_bars(self) -> None:
+        results = load(write_results(self.results, seeds=(1, 2)))
+        results.convergence.loc[results.convergence.seed == 1, "relmse"] *= 100  # two seeds: bars of decades
+        for axes in ablation_figure(results, "simple").axes:
+            low, high = axes.get_xlim()
+            means = points(axes).values()
+            self.assertTrue(low < min(means) and max(means) < high)
+            self.assertLess(high / low, 1e6)
+
+    def test_cells_at_the_floor_are_hollow(self) -> None:
+        results = load(write_results(self.results))
+        runs = results.convergence
+        flagged = (runs.scene == "simple") & (runs.label == "BSDF") & (runs.frame == LAST)
+        runs.loc[flagged, "at_reference_floor"] = True
+        figure = ablation_figure(results, "simple")
+        for axes in figure.axes:
+            hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
+            self.assertEqual([list(line.get_ydata()) for line in hollow], [[1]])
+        self.assertIn("Hollow", texts(figure))
+        self.assertNotIn("Hollow", texts(ablation_figure(results, "occluded")))
+
+    def test_words(self) -> None:
+        words = texts(ablation_figure(load(write_results(self.results)), "occluded"))
+        for part in ("study: 3 seeds, 8 frames", "occluded", "relMSE at the last frame", "relMSE × s",
+                     "95 % confidence", *METHODS):
+            self.assertIn(part, words)
+
+    def test_one_seed_has_no_bar_and_says_so(self) -> None:
+        figure = ablation_figure(load(write_results(self.results, seeds=(2,))), "simple")
+        self.assertIn("One seed per cell: there is no confidence interval.", texts(figure))
+        self.assertFalse(any(axes.collections for axes in figure.axes))
+        self.assertEqual(points(figure.axes[0]), {i: relmse(method, 2, LAST) for i, method in enumerate(METHODS)})
+
+    def test_axes_within_a_decade_have_ticks_to_read(self) -> None:
+        results = load(write_results(self.results, methods=("RL",)))
+        for axes in ablation_figure(results, "simple").axes:
+            low, high = axes.get_xlim()
+            self.assertGreaterEqual(sum(low <= tick <= high for tick in axes.get_xticks()), 2)
+
+
+class CommandTest(FolderTest):
+    def test_writes_a_figure_per_scene_and_says_which(self) -> None:
+        write_results(self.results)
+        code, out, err = self.run_script(main, self.results)
+        files = [self.results / f"ablation_{scene}.png" for scene in ("simple", "occluded")]
+        self.assertEqual((code, out, err), (0, "".join(f"{file}\n" for file in files), ""))
+        for file in files:
+            self.assertTrue(file.read_bytes().startswith(b"\x89PNG"))
+
+    def test_failures(self) -> None:
+        code, out, err = self.run_script(main, self.folder / "nowhere")
+        self.assertEqual((code, out), (1, ""))
+        self.assertRegex(err, "^error: .*no such folder.*\n$")
+        write_results(self.results)
+        for file in self.results.glob("*/convergence.csv"):
+            file.write_text(file.read_text().splitlines()[0] + "\n")
+        code, out, err = self.run_script(main, self.results, "--out", self.folder / "figures")
+        self.assertEqual((code, out), (1, ""))
+        self.assertRegex(err, "^error: .*no relMSE of simple is above zero.*\n$")
