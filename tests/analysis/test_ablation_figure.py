@@ -83,8 +83,9 @@ class FigureTest(FolderTest):
         runs.loc[flagged, "at_reference_floor"] = True
         figure = ablation_figure(results, "simple")
         for axes in figure.axes:
-            hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
-            self.assertEqual([list(line.get_ydata()) for line in hollow], [[1]])
+            dots = [line for line in axes.lines if line.get_marker() == "o"]
+            lines = {line.get_markerfacecolor() == "white": list(line.get_ydata()) for line in dots}
+            self.assertEqual(lines, {True: [1], False: [0, 2]})
         self.assertIn("Hollow", texts(figure))
         self.assertNotIn("Hollow", texts(ablation_figure(results, "occluded")))
 
@@ -101,10 +102,10 @@ class FigureTest(FolderTest):
         self.assertEqual(points(figure.axes[0]), {i: relmse(method, 2, LAST) for i, method in enumerate(METHODS)})
 
     def test_axes_within_a_decade_have_ticks_to_read(self) -> None:
-        results = load(write_results(self.results, methods=("RL",)))
+        results = load(write_results(self.results, methods=("NEE, two rays", "RL")))
         for axes in ablation_figure(results, "simple").axes:
             low, high = axes.get_xlim()
-            self.assertGreaterEqual(sum(low <= tick <= high for tick in axes.get_xticks()), 2)
+            self.assertGreaterEqual(sum(low <= tick <= high for tick in axes.get_xticks()), 3)
 
 
 class CommandTest(FolderTest):
