@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Iterable
 
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 # Okabe and Ito 2008, "Color Universal Design"; dark and distant ones first, as yellow is faint on white.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442"]
@@ -38,11 +38,9 @@ def line_styles(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
 
 
 def format_log_axis(axis: Axis, low: float, high: float) -> None:
-    """Plain numbers; 1, 2, 5 as ticks where whole decades would be too few to read values from, and even steps
-    within less than a decade."""
+    """Plain numbers; 1, 2, 5 as ticks where whole decades would be too few to read values from."""
     steps = (1, 2, 5) if high / low < 1000 else (1,)
-    few = MaxNLocator(5, steps=[1, 2, 5, 10])
-    axis.set_major_locator(LogLocator(10, subs=steps, numticks=12) if high / low >= 10 else few)
+    axis.set_major_locator(LogLocator(10, subs=steps, numticks=12))
     axis.set_minor_locator(NullLocator() if len(steps) > 1 else LogLocator(10, subs=range(2, 10), numticks=12))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(FuncFormatter(lambda *_: ""))
