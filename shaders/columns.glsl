@@ -1,6 +1,7 @@
 // Drawing a column of a row in proportion to what was learned, and gathering targets for it. The distributions
 // are written by learn.comp alone, between frames.
 #include "table.glsl"
+#include "touched.glsl"
 
 layout(std430, binding = BINDING_COLUMN_STARTS) restrict readonly buffer ColumnStartBuffer { uint column_starts[]; };
 layout(std430, binding = BINDING_TARGET_SUMS) restrict buffer TargetSumBuffer { TargetSum target_sums[]; };
@@ -34,6 +35,7 @@ uint choose_column(uint first, uint count, uint word) {
 // Adds a target, in its column's units, to this frame's sum. Integer sums do not depend on the order of threads.
 // Returns whether the target was clamped.
 bool gather_units(uint entry, float target) {
+  touch(entry / TABLE_COLUMNS);
   float units = round(min(target, TARGET_LIMIT));
   uint high = uint(units * (1.0 / 4294967296.0));
   uint low = uint(units - float(high) * 4294967296.0);

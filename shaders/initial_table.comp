@@ -25,7 +25,7 @@ float initial_value(uint cell, uint bin) {
 }
 
 void main() {
-  uint cell = gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x;
+  uint cell = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
   if (cell >= parameters.path.w) return;
   uint column = 0u;
   do {

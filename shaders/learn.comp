@@ -1,10 +1,11 @@
 #version 450 core
-// Once per frame, for every cell: applies the targets that the frame gathered, then prepares what trace.comp
-// draws from. One invocation per cell.
+// Once per frame, for every cell that it taught something: applies the targets that the frame gathered, then
+// prepares what trace.comp draws from. One invocation per cell.
 #include "variants.glsl"
 #include "scene.glsl"
 #include "table.glsl"
 #include "rates.glsl"
+#include "touched.glsl"
 #include "statistics.glsl"
 
 layout(local_size_x = 64) in;
@@ -144,8 +145,10 @@ void learn_lights(uint cell) {
 #endif
 
 void main() {
-  uint cell = gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x;
-  if (cell >= parameters.path.w) return;
+  uint place = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
+  if (place >= touched_head.count) return;
+  uint cell = touched[place];
+  touched[mark_of(cell)] = 0u;
 #if SAMPLER == SAMPLER_RL
   learn_bins(cell);
 #endif

@@ -59,6 +59,14 @@ struct SiteRange {
   uint count;
 };
 
+// Head of the list of cells that a frame taught something: the size of learn.comp's dispatch, and the list's length.
+struct TouchedHead {
+  uint groups_x;  // of LEARN_GROUP cells
+  uint groups_y;  // 1
+  uint groups_z;  // 1
+  uint count;
+};
+
 // Sum of one frame's targets of a table entry: fixed point, high * 2^32 + low in units of TARGET_UNIT.
 struct TargetSum {
   uint low;
@@ -119,6 +127,7 @@ const int BINDING_SUMS = 13;
 const int BINDING_STATISTICS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
 const int BINDING_LIGHTS = 16;
+const int BINDING_TOUCHED_CELLS = 17;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -132,6 +141,7 @@ const uint NO_TRIANGLE = 0xffffffffu;
 const uint NO_LIGHT = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
+const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
 
 // Fixed point of a target that is a radiance: 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it
 // hold 1.7e13.

@@ -21,8 +21,8 @@ PITCH = 4.0       # metres from room to room
 HEIGHT = 2.6
 THICKNESS = 0.1   # of walls
 DOOR_HALF, DOOR_HEIGHT = 0.5, 2.1
-LAMP_HALF, LAMP_Y = 0.3, 2.55
-DIMMEST, RANGE = 12.0, 3.0  # luminance of the dimmest lamp, and the brightest over it
+LAMP_HALF, LAMP_Y = 0.1, 2.55
+DIMMEST, RANGE = 108.0, 3.0  # luminance of the dimmest lamp, and the brightest over it
 GOLDEN = 0.6180339887  # its multiples, modulo 1, are evenly spread
 
 # In room (4, 4): through one doorway along a row of rooms, through another to the side.

@@ -58,6 +58,8 @@ void Buffer::bind_uniform(int binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id_);
 }
 
+void Buffer::bind_dispatch() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_); }
+
 void Buffer::clear() {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);

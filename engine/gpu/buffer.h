@@ -29,6 +29,7 @@ class Buffer {
   std::size_t bytes() const { return bytes_; }
   void bind_storage(int binding) const;
   void bind_uniform(int binding) const;
+  void bind_dispatch() const;  // as the size of an indirect dispatch
 
   void clear();
   void clear(std::size_t offset, std::size_t bytes);  // multiples of 4

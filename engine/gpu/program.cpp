@@ -77,4 +77,11 @@ void Program::dispatch(std::uint32_t x, std::uint32_t y) const {
   glDispatchCompute(x, y, 1);
 }
 
+void Program::dispatch_indirect(const Buffer& size) const {
+  glUseProgram(id_);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  size.bind_dispatch();
+  glDispatchComputeIndirect(0);
+}
+
 }  // namespace qtrace::gpu

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/shader_source.h"
 
 #include <cstdint>
@@ -21,6 +22,8 @@ class Program {
   void set_frame(std::uint32_t frame);
   // Work groups; earlier writes to storage buffers are seen.
   void dispatch(std::uint32_t x, std::uint32_t y = 1) const;
+  // As many work groups as the buffer's first three words say when the device gets there.
+  void dispatch_indirect(const Buffer& size) const;
 
  private:
   std::uint32_t id_ = 0;

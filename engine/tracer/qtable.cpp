@@ -2,10 +2,13 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/structs.h"
+
+#include <numeric>
+
 namespace qtrace {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;  // of learn.comp and initial_table.comp
+std::uint32_t groups_of(std::uint32_t cells) { return (cells + gpu::LEARN_GROUP - 1) / gpu::LEARN_GROUP; }
 
 }  // namespace
 
@@ -19,6 +22,7 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
       sums_("Q targets (cells x columns)", entries_ * sizeof(gpu::TargetSum)),
       starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t)),
       next_values_("Q next values (cells)", cells_.count() * sizeof(float)),
+      touched_("touched cells", sizeof(gpu::TouchedHead) + 2 * cells_.count() * sizeof(std::uint32_t)),
       initialize_("initial_table.comp", defines),
       learn_("learn.comp", defines) {}
 
@@ -29,25 +33,39 @@ void QTable::bind() const {
   sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
   starts_.bind_storage(gpu::BINDING_COLUMN_STARTS);
   next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
+  touched_.bind_storage(gpu::BINDING_TOUCHED_CELLS);
 }
 
 void QTable::learn() {
   bind();
-  learn_.dispatch(groups());
+  learn_.dispatch_indirect(touched_);
+  forget_touched();
 }
 
 void QTable::reset() {
   for (gpu::Buffer* buffer : {&visits_, &sums_}) buffer->clear();
   bind();
-  initialize_.dispatch(groups());
+  initialize_.dispatch(groups_of(cells_.count()));
+  touch_all();
   learn();
 }
 
-std::uint32_t QTable::groups() const { return (cells_.count() + kGroupSize - 1) / kGroupSize; }
+void QTable::touch_all() {
+  std::vector<std::uint32_t> list(cells_.count());
+  std::iota(list.begin(), list.end(), 0U);
+  const gpu::TouchedHead head{groups_of(cells_.count()), 1, 1, cells_.count()};
+  touched_.write(0, &head, sizeof(head));
+  touched_.write(sizeof(head), list.data(), list.size() * sizeof(list[0]));
+}
+
+void QTable::forget_touched() {
+  const gpu::TouchedHead head{0, 1, 1, 0};
+  touched_.write(0, &head, sizeof(head));
+}
 
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
-         starts_.bytes() + next_values_.bytes();
+         starts_.bytes() + next_values_.bytes() + touched_.bytes();
 }
 
 std::vector<float> QTable::values() const { return values_.read_all<float>(); }
@@ -57,6 +75,7 @@ std::vector<std::uint32_t> QTable::visits() const { return visits_.read_all<std:
 void QTable::set_values(std::span<const float> values) {
   check(values.size() == entries_, "a table of {} values was given for one of {}", values.size(), entries_);
   values_.write(0, values.data(), values.size_bytes());
+  touch_all();
   learn();
 }
 

@@ -36,7 +36,8 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  std::uint32_t groups() const;
+  void touch_all();        // as if every cell had been taught something
+  void forget_touched();
 
   CellBuffers cells_;
   std::size_t columns_;
@@ -46,6 +47,7 @@ class QTable {
   gpu::Buffer sums_;
   gpu::Buffer starts_;
   gpu::Buffer next_values_;
+  gpu::Buffer touched_;
   gpu::Program initialize_;
   gpu::Program learn_;
 };
