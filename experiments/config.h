@@ -28,6 +28,7 @@ struct KnobType<SnapshotPlan> {
 struct ReferenceSettings {
   int frames = 1024;
   std::uint32_t seed = 9001;
+  LightChoice lights = LightChoice::power;
 };
 
 template <class Visitor>
@@ -39,6 +40,9 @@ void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
   visit(KnobInfo{"seed", "", "its seed; must differ from the seeds of the runs", 0,
                  std::numeric_limits<std::uint32_t>::max()},
         reference.seed);
+  visit(KnobInfo{"lights", "",
+                 "how its next event estimation picks a light; learned: with the default table, said in every table"},
+        reference.lights);
 }
 
 struct RunConfig {

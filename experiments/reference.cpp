@@ -59,9 +59,10 @@ ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_h
   spec.settings.seed = config.reference.seed;
   spec.settings.sampler = Sampler::bsdf;
   spec.settings.nee = Nee::one_ray;
+  spec.settings.lights = config.reference.lights;
   spec.frames = config.reference.frames;
   spec.definition = write_knobs(spec.settings);
-  spec.definition.erase("rl");  // plays no part
+  if (!has_table(spec.settings)) spec.definition.erase("rl");  // plays no part
   spec.definition["frames"] = spec.frames;
   spec.definition["scene"] = scene_hash;
   spec.definition["reference_version"] = kReferenceVersion;
