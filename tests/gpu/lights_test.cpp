@@ -2,6 +2,7 @@
 #include "engine/gpu/alias_table.h"
 #include "engine/gpu/light_table.h"
 #include "tests/support/learning_stage.h"
+#include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
 #include <cmath>
@@ -133,6 +134,38 @@ TEST_F(LightChoices, Learned) {
     }
     expect_stated(stated);
   }
+}
+
+// A light below the floor teaches the cells above that it brings nothing; the one above, the mean square of what it
+// brings: at the floor's middle radiance x albedo x form factor, if the light is small.
+TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
+  const LitFloor lit = lit_floor(0.8F, 10, 0.2F, 2);
+  Scene scene = lit.scene;
+  scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(40)));
+  add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, static_cast<std::uint32_t>(scene.materials.size() - 1));
+  scene.camera = look_at({1, 1, 1}, {0, 0, 0}, 0.05F);
+  RenderSettings settings;
+  settings.width = settings.height = 32;
+  settings.max_bounces = 1;
+  settings.sampler = Sampler::bsdf;
+  settings.nee = Nee::one_ray;
+  settings.lights = LightChoice::learned;
+  settings.rl.sites_per_object = 1;
+  Tracer tracer(device(), scene, settings);
+  render(tracer, 8);
+  const std::vector<float> values = tracer.table()->values();
+  const std::vector<std::uint32_t> visits = tracer.table()->visits();
+  ASSERT_EQ(tracer.table()->columns(), 2U);
+  const double contribution = lit.radiance(0, 0) / 40;  // in units of the brightest light
+  int taught = 0;
+  for (std::size_t cell = 0; cell < values.size() / 2; ++cell) {
+    if (visits[2 * cell] == 0) continue;
+    ++taught;
+    EXPECT_NEAR(values[2 * cell] / (contribution * contribution), 1, 0.03);
+    EXPECT_GT(visits[2 * cell + 1], 0U);
+    EXPECT_EQ(values[2 * cell + 1], 0);
+  }
+  EXPECT_EQ(taught, 1);
 }
 
 }  // namespace
