@@ -47,13 +47,13 @@ struct Light {
   uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
 };
 
-// Centre of a Voronoi cell.
+// Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h).
 struct Site {
-  vec4 position;
-  vec4 normal;  // unit
+  vec4 position;  // w: bits of the dimension by which the node is split
+  vec4 normal;    // xyz: unit, w: its coordinate in that dimension
 };
 
-// The sites of an object: a range of the site buffer.
+// The sites of an object: a range of the site buffer, in the order of the tree.
 struct SiteRange {
   uint first;
   uint count;

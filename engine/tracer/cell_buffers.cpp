@@ -1,14 +1,24 @@
 #include "engine/tracer/cell_buffers.h"
 
+#include "engine/cells/site_counts.h"
+
+#include <bit>
+#include <numeric>
+#include <utility>
+
 namespace qtrace {
 namespace {
 
 constexpr std::uint32_t kSidesPerSite = 2;
 
-std::vector<gpu::Site> pack_sites(const CellSites& sites) {
+std::vector<gpu::Site> pack_sites(const CellSites& sites, const std::vector<SplitDimension>& dimensions) {
   std::vector<gpu::Site> packed;
   packed.reserve(sites.sites.size());
-  for (const CellSite& s : sites.sites) packed.push_back({glm::vec4(s.position, 0), glm::vec4(s.normal, 0)});
+  for (std::size_t i = 0; i < sites.sites.size(); ++i) {
+    const CellSite& s = sites.sites[i];
+    const SplitDimension k = dimensions[i];
+    packed.push_back({glm::vec4(s.position, std::bit_cast<float>(k)), glm::vec4(s.normal, coordinate(s, k))});
+  }
   return packed;
 }
 
@@ -35,12 +45,15 @@ std::vector<CellState> site_states(const CellSites& sites) {
 }  // namespace
 
 CellBuffers::CellBuffers(const Scene& scene, const RlSettings& settings)
-    : CellBuffers(place_sites(scene, settings.site_placement, settings.sites_per_object)) {}
+    : CellBuffers(place_sites(scene, settings), settings.cell_normal_threshold) {}
 
-CellBuffers::CellBuffers(const CellSites& sites)
+CellBuffers::CellBuffers(CellSites sites, double normal_threshold)
+    : CellBuffers(sites, order_as_trees(sites, normal_threshold)) {}
+
+CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SplitDimension>& dimensions)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
-      sites_("Voronoi sites", pack_sites(sites)),
+      sites_("Voronoi sites", pack_sites(sites, dimensions)),
       ranges_("site ranges", pack_ranges(sites)) {}
 
 void CellBuffers::bind() const {
@@ -49,7 +62,8 @@ void CellBuffers::bind() const {
 }
 
 std::size_t CellBuffers::count(const Scene& scene, const RlSettings& settings) {
-  return scene.objects.size() * static_cast<std::size_t>(settings.sites_per_object) * kSidesPerSite;
+  const std::vector<std::uint32_t> counts = site_counts(scene, settings);
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) * kSidesPerSite;
 }
 
 }  // namespace qtrace

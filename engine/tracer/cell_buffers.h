@@ -1,6 +1,7 @@
 // The cells of a scene on the device: what find_cell() of shaders/cells.glsl searches.
 #pragma once
 
+#include "engine/cells/site_tree.h"
 #include "engine/cells/sites.h"
 #include "engine/core/settings.h"
 #include "engine/gpu/buffer.h"
@@ -25,6 +26,8 @@ struct CellState {
 class CellBuffers {
  public:
   CellBuffers(const Scene& scene, const RlSettings& settings);
+  // Voronoi cells of sites of one's own.
+  CellBuffers(CellSites sites, double normal_threshold);
 
   void bind() const;
 
@@ -38,7 +41,7 @@ class CellBuffers {
   static std::size_t count(const Scene& scene, const RlSettings& settings);
 
  private:
-  explicit CellBuffers(const CellSites& sites);
+  CellBuffers(const CellSites& sites, const std::vector<SplitDimension>& dimensions);
 
   std::vector<CellState> states_;
   std::vector<std::string> warnings_;
