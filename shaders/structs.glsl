@@ -49,8 +49,8 @@ struct Light {
 
 // Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h).
 struct Site {
-  vec4 position;  // w: bits of the dimension by which the node is split
-  vec4 normal;    // xyz: unit, w: its coordinate in that dimension
+  vec4 position;  // w: bits of the axis by which the node is split
+  vec4 normal;    // xyz: unit, w: bits of its subtree's bounds of normals: lower x, y, z, upper x, y, z
 };
 
 // The sites of an object: a range of the site buffer, in the order of the tree.
@@ -142,6 +142,8 @@ const uint NO_LIGHT = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
+const uint NORMAL_BOUND_BITS = 5u;  // -1 to 1, in NORMAL_BOUND_STEPS steps
+const uint NORMAL_BOUND_STEPS = (1u << NORMAL_BOUND_BITS) - 1u;
 
 // Fixed point of a target that is a radiance: 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it
 // hold 1.7e13.

@@ -40,25 +40,25 @@ Nearest nearest_site(Surface s, SiteRange range) {
 
 #else
 
-// Normals are unit up to the rounding of their normalisation, some 2^-22 in the square.
-const float NORMAL_ROUNDING = 1e-5;
+// What rounding can add to a cosine of normals, and take from a bound of it, is below some 1e-6.
+const float COSINE_ROUNDING = 1e-5;
 
-// The hit's coordinate in the dimension that a node is split by (engine/cells/site_tree.h).
-float coordinate_of(Surface s, uint k) {
-  vec3 v = k < 3u ? s.position : s.mesh_normal;
-  uint axis = k < 3u ? k : k - 3u;
-  return axis == 0u ? v.x : axis == 1u ? v.y : v.z;
+// Whether a site below a node may qualify: the largest cosine that the bounds of their normals allow.
+bool may_qualify(Surface s, uint bounds) {
+  const uvec3 shift = uvec3(0u, 1u, 2u) * NORMAL_BOUND_BITS;
+  vec3 lo = vec3((uvec3(bounds) >> shift) & NORMAL_BOUND_STEPS);
+  vec3 hi = vec3((uvec3(bounds) >> (shift + 3u * NORMAL_BOUND_BITS)) & NORMAL_BOUND_STEPS);
+  vec3 scale = s.mesh_normal * (2.0 / float(NORMAL_BOUND_STEPS));
+  vec3 cosines = max(lo * scale, hi * scale) - s.mesh_normal;
+  return cosines.x + cosines.y + cosines.z + COSINE_ROUNDING > parameters.rl.z;
 }
 
 // Wald 2022, "A Stack-Free Traversal Algorithm for Left-Balanced k-d Trees": node n, counted from 1, has the
 // parent n / 2; whether a node is reached from above, from its near or from its far child tells what comes next.
-//
-// A subtree beyond a split is left out only if no site in it can win. In position: rounding is monotone, so that
-// the rounded distance of none is below the rounded distance of the split; one just as near can still be the
-// first. In normals: a site n' qualifies at a normal n only if |n' - n|^2 = 2 - 2 dot(n', n) < 2 - 2 threshold.
+// The far side is left out only if no site there can win: rounding is monotone, so that the rounded distance of
+// none is below the rounded distance of the split. One just as near can still be the first.
 Nearest nearest_site(Surface s, SiteRange range) {
   Nearest nearest = Nearest(INFINITY, 0u);
-  float normal_reach2 = max(2.0 - 2.0 * parameters.rl.z, 0.0) + NORMAL_ROUNDING;
   uint previous = 0u;
   uint node = min(range.count, 1u);
   bool searching = node != 0u;
@@ -66,21 +66,22 @@ Nearest nearest_site(Surface s, SiteRange range) {
     if (searching) {
       Site site = sites[range.first + node - 1u];
       bool is_new = previous < node;
-      if (is_new) {
+      bool is_open = !is_new || may_qualify(s, floatBitsToUint(site.normal.w));
+      if (is_new && is_open) {
         float distance2 = site_distance2(s, site);
         bool is_first = distance2 == nearest.distance2 && node - 1u < nearest.site;
         if (distance2 < nearest.distance2 || is_first) nearest = Nearest(distance2, node - 1u);
       }
-      uint k = floatBitsToUint(site.position.w);
-      precise float beyond = coordinate_of(s, k) - site.normal.w;
+      uint axis = floatBitsToUint(site.position.w);
+      precise vec3 d = s.position - site.position.xyz;
+      float beyond = axis == 0u ? d.x : axis == 1u ? d.y : d.z;
       precise float beyond2 = beyond * beyond;
       uint near = 2u * node + (beyond > 0.0 ? 1u : 0u);
       uint far = near ^ 1u;
-      bool is_far_open = far <= range.count && beyond2 <= (k < 3u ? nearest.distance2 : normal_reach2);
       uint next = node >> 1;
-      if (is_new && near <= range.count) {
+      if (is_new && is_open && near <= range.count) {
         next = near;
-      } else if ((is_new || previous == near) && is_far_open) {
+      } else if (is_open && previous != far && far <= range.count && beyond2 <= nearest.distance2) {
         next = far;
       }
       previous = node;

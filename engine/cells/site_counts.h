@@ -11,8 +11,8 @@ namespace qtrace {
 
 // sites_per_object each; or, where total_sites is set, that many shared among the objects in proportion to
 // their area, so that sites stand about equally far apart all over the scene: at least one each, and rounded
-// by largest remainders (Hamilton's method), so that the sum is exact unless there are more objects than sites.
-// None on an object without triangles.
+// by largest remainders (Hamilton's method), so that the sum is exact unless there are more objects than
+// sites. None on an object without triangles.
 std::vector<std::uint32_t> site_counts(const Scene& scene, const RlSettings& settings);
 
 }  // namespace qtrace

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -23,66 +23,63 @@ int longest(glm::vec3 v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 
 
 class TreeBuilder {
  public:
-  TreeBuilder(std::span<const CellSite> sites, double reach)
-      : sites_(sites), reach_(reach), order_(sites.size()), dimension_(sites.size()) {
+  explicit TreeBuilder(std::span<const CellSite> sites)
+      : sites_(sites), order_(sites.size()), nodes_(sites.size()) {
     std::vector<std::uint32_t> items(sites.size());
     std::iota(items.begin(), items.end(), 0U);
     build(items, 0);
   }
 
   const std::vector<std::uint32_t>& order() const { return order_; }  // of the sites, node by node
-  const std::vector<SplitDimension>& dimension() const { return dimension_; }  // node by node
+  const std::vector<SiteNode>& nodes() const { return nodes_; }
 
  private:
-  SplitDimension choose_dimension(std::span<const std::uint32_t> items) const {
-    glm::vec3 lo[2], hi[2];
-    lo[0] = hi[0] = sites_[items[0]].position;
-    lo[1] = hi[1] = sites_[items[0]].normal;
+  SiteNode make_node(std::span<const std::uint32_t> items) const {
+    const CellSite& first = sites_[items[0]];
+    SiteNode node{0, first.normal, first.normal};
+    glm::vec3 lo = first.position;
+    glm::vec3 hi = first.position;
     for (const std::uint32_t i : items) {
-      lo[0] = glm::min(lo[0], sites_[i].position);
-      hi[0] = glm::max(hi[0], sites_[i].position);
-      lo[1] = glm::min(lo[1], sites_[i].normal);
-      hi[1] = glm::max(hi[1], sites_[i].normal);
+      lo = glm::min(lo, sites_[i].position);
+      hi = glm::max(hi, sites_[i].position);
+      node.lo_normal = glm::min(node.lo_normal, sites_[i].normal);
+      node.hi_normal = glm::max(node.hi_normal, sites_[i].normal);
     }
-    const glm::vec3 spread = hi[1] - lo[1];
-    const int normal = longest(spread);
-    const bool splits_normals = static_cast<double>(spread[normal]) > reach_;
-    return static_cast<SplitDimension>(splits_normals ? 3 + normal : longest(hi[0] - lo[0]));
+    node.axis = longest(hi - lo);
+    return node;
   }
 
   void build(std::span<std::uint32_t> items, std::size_t node) {
     if (items.empty()) return;
-    const SplitDimension k = choose_dimension(items);
+    nodes_[node] = make_node(items);
     const std::size_t left = left_count(items.size());
     // The index decides between equal coordinates: the same sites give the same tree everywhere.
-    std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(left), {},
-                             [&](std::uint32_t i) { return std::pair(coordinate(sites_[i], k), i); });
+    std::ranges::nth_element(
+        items, items.begin() + static_cast<std::ptrdiff_t>(left), {},
+        [&](std::uint32_t i) { return std::pair(sites_[i].position[nodes_[node].axis], i); });
     order_[node] = items[left];
-    dimension_[node] = k;
     build(items.first(left), 2 * node + 1);
     build(items.subspan(left + 1), 2 * node + 2);
   }
 
   std::span<const CellSite> sites_;
-  double reach_;
   std::vector<std::uint32_t> order_;
-  std::vector<SplitDimension> dimension_;
+  std::vector<SiteNode> nodes_;
 };
 
 }  // namespace
 
-std::vector<SplitDimension> order_as_trees(CellSites& cells, double normal_threshold) {
-  const double reach = std::sqrt(std::max(0.0, 2 - 2 * normal_threshold));
+std::vector<SiteNode> order_as_trees(CellSites& cells) {
   const std::vector<CellSite> sites = std::move(cells.sites);
   cells.sites.clear();
-  std::vector<SplitDimension> dimensions;
+  std::vector<SiteNode> nodes;
   for (std::size_t o = 0; o + 1 < cells.first.size(); ++o) {
     const auto object = std::span(sites).subspan(cells.first[o], cells.first[o + 1] - cells.first[o]);
-    const TreeBuilder tree(object, reach);
+    const TreeBuilder tree(object);
     for (const std::uint32_t i : tree.order()) cells.sites.push_back(object[i]);
-    dimensions.insert(dimensions.end(), tree.dimension().begin(), tree.dimension().end());
+    nodes.insert(nodes.end(), tree.nodes().begin(), tree.nodes().end());
   }
-  return dimensions;
+  return nodes;
 }
 
 }  // namespace qtrace

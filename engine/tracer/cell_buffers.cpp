@@ -2,6 +2,8 @@
 
 #include "engine/cells/site_counts.h"
 
+#include <glm/common.hpp>
+
 #include <bit>
 #include <numeric>
 #include <utility>
@@ -11,13 +13,32 @@ namespace {
 
 constexpr std::uint32_t kSidesPerSite = 2;
 
-std::vector<gpu::Site> pack_sites(const CellSites& sites, const std::vector<SplitDimension>& dimensions) {
+// Rounded away from one another.
+gpu::uint pack_bounds(glm::vec3 lo, glm::vec3 hi) {
+  const auto steps = [](glm::vec3 v) {
+    return (v + 1.0F) * (0.5F * static_cast<float>(gpu::NORMAL_BOUND_STEPS));
+  };
+  const auto whole = [](glm::vec3 v) {
+    return glm::uvec3(glm::clamp(v, 0.0F, float{gpu::NORMAL_BOUND_STEPS}));
+  };
+  const glm::uvec3 low = whole(glm::floor(steps(lo)));
+  const glm::uvec3 high = whole(glm::ceil(steps(hi)));
+  gpu::uint bits = 0;
+  for (const gpu::uint bound : {high.z, high.y, high.x, low.z, low.y, low.x}) {
+    bits = (bits << gpu::NORMAL_BOUND_BITS) | bound;
+  }
+  return bits;
+}
+
+std::vector<gpu::Site> pack_sites(const CellSites& sites, const std::vector<SiteNode>& nodes) {
   std::vector<gpu::Site> packed;
   packed.reserve(sites.sites.size());
   for (std::size_t i = 0; i < sites.sites.size(); ++i) {
     const CellSite& s = sites.sites[i];
-    const SplitDimension k = dimensions[i];
-    packed.push_back({glm::vec4(s.position, std::bit_cast<float>(k)), glm::vec4(s.normal, coordinate(s, k))});
+    const SiteNode& node = nodes[i];
+    packed.push_back(
+        {glm::vec4(s.position, std::bit_cast<float>(node.axis)),
+         glm::vec4(s.normal, std::bit_cast<float>(pack_bounds(node.lo_normal, node.hi_normal)))});
   }
   return packed;
 }
@@ -45,15 +66,14 @@ std::vector<CellState> site_states(const CellSites& sites) {
 }  // namespace
 
 CellBuffers::CellBuffers(const Scene& scene, const RlSettings& settings)
-    : CellBuffers(place_sites(scene, settings), settings.cell_normal_threshold) {}
+    : CellBuffers(place_sites(scene, settings)) {}
 
-CellBuffers::CellBuffers(CellSites sites, double normal_threshold)
-    : CellBuffers(sites, order_as_trees(sites, normal_threshold)) {}
+CellBuffers::CellBuffers(CellSites sites) : CellBuffers(sites, order_as_trees(sites)) {}
 
-CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SplitDimension>& dimensions)
+CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
-      sites_("Voronoi sites", pack_sites(sites, dimensions)),
+      sites_("Voronoi sites", pack_sites(sites, nodes)),
       ranges_("site ranges", pack_ranges(sites)) {}
 
 void CellBuffers::bind() const {

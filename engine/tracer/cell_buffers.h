@@ -27,7 +27,7 @@ class CellBuffers {
  public:
   CellBuffers(const Scene& scene, const RlSettings& settings);
   // Voronoi cells of sites of one's own.
-  CellBuffers(CellSites sites, double normal_threshold);
+  explicit CellBuffers(CellSites sites);
 
   void bind() const;
 
@@ -41,7 +41,7 @@ class CellBuffers {
   static std::size_t count(const Scene& scene, const RlSettings& settings);
 
  private:
-  CellBuffers(const CellSites& sites, const std::vector<SplitDimension>& dimensions);
+  CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes);
 
   std::vector<CellState> states_;
   std::vector<std::string> warnings_;

@@ -67,12 +67,13 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   EXPECT_EQ(std::max_element(cell, cell + 36) - cell, found[0].y);
 }
 
-// A search that is cut says so: each of these looks through 100,000 sites, four a turn.
+// A search that is cut says so: each of these looks through 100,000 sites one after the other, four a turn.
 TEST_F(Learning, CutSearchForCellsIsNoticed) {
   if (device().device().renderer.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "no loop budget is known";
   RlSettings many = settings_.rl;
   many.sites_per_object = 100000;
+  many.site_search = SiteSearch::linear;
   const QTable table(scene_, many, 4, defines_);
   table.bind();
   const std::string search =
@@ -81,7 +82,9 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
       "}\n"
       "result = uvec4(uint(sum), loop_was_cut ? 1u : 0u, 0u, 0u);";
   for (const auto& [searches, is_cut] : {std::pair{"1", 0U}, std::pair{"4", 1U}}) {
-    gpu::Defines defines = defines_;
+    RenderSettings settings = settings_;
+    settings.rl = many;
+    gpu::Defines defines = shader_defines(settings, buffers_->features());
     defines["SEARCHES"] = searches;
     const auto found =
         probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "", search, 8, defines);

@@ -59,10 +59,14 @@ class Queries {
   glm::vec3 near(glm::vec3 a, glm::vec3 b) {
     const float size = glm::length(hi_ - lo_);
     switch (random_() % 4) {
-      case 0: return a;
-      case 1: return 0.5F * (a + b);
-      case 2: return a + 0.03F * size * noise();
-      default: return 0.5F * (lo_ + hi_) + 0.5F * size * noise();
+      case 0:
+        return a;
+      case 1:
+        return 0.5F * (a + b);
+      case 2:
+        return a + 0.03F * size * noise();
+      default:
+        return 0.5F * (lo_ + hi_) + 0.5F * size * noise();
     }
   }
 
@@ -105,7 +109,7 @@ void expect_same_cells(const CellSites& cells) {
     gpu::Parameters parameters{};
     parameters.rl.z = threshold;
     block.write(0, &parameters, sizeof(parameters));
-    const CellBuffers buffers(cells, threshold);
+    const CellBuffers buffers(cells);
     buffers.bind();
     const std::vector<Query> queries = Queries(cells, 11).take(kQueries);
     const auto tree = search(queries, SiteSearch::tree);

@@ -43,7 +43,8 @@ TEST(SiteCounts, FollowTheArea) {
   EXPECT_EQ(site_counts(quads({1, 9, 90}), total(1000)), (Counts{10, 90, 900}));
 }
 
-// Shares of 3.2, 3.41 and 3.39 make nine; the tenth goes to the largest remainder, of equal ones to the first.
+// Shares of 3.2, 3.41 and 3.39 make nine; the tenth goes to the largest remainder, of equal ones to the
+// first.
 TEST(SiteCounts, GiveWhatIsLeftToTheLargestRemainder) {
   EXPECT_EQ(site_counts(quads({3.2F, 3.41F, 3.39F}), total(10)), (Counts{3, 4, 3}));
   EXPECT_EQ(site_counts(quads({1, 1}), total(7)), (Counts{4, 3}));
