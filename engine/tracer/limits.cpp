@@ -17,8 +17,9 @@ namespace {
 constexpr int kLoopBudget = 65535;
 constexpr int kLoopsPerColumn = 3;     // of learn.comp: visits, targets, distribution
 constexpr int kSitesPerIteration = 4;  // of the linear search in voronoi.glsl
-// Turns of the search through a tree of sites, for each of its levels. Two to three are usual, twenty were seen;
-// no bound below the number of sites holds everywhere, and a search that is cut is detected (loop_was_cut).
+// Turns of the search through a tree of sites, for each of its levels. Two to three are usual, twenty were
+// seen; no bound below the number of sites holds everywhere, and a search that is cut is detected
+// (loop_was_cut).
 constexpr int kTurnsPerLevel = 20;
 // Registers of an invocation spill to memory for the lessons of monte_carlo.glsl, 48 bytes for each.
 constexpr int kMostLessons = 64;
@@ -37,11 +38,12 @@ void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const 
                        std::size_t columns) {
   const bool is_limited = device.renderer.find("llvmpipe") != std::string::npos;
   if (!is_limited) return;
-  check(columns <= kLoopBudget / kLoopsPerColumn / 2,
-        "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "
-        "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
-        "another device",
-        columns, device.renderer, kLoopBudget);
+  check(
+      columns <= kLoopBudget / kLoopsPerColumn / 2,
+      "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "
+      "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
+      "another device",
+      columns, device.renderer, kLoopBudget);
   const int turns = search_turns(scene, settings.rl);
   const int hits = settings.max_bounces + 1;
   const bool is_linear = settings.rl.site_search == SiteSearch::linear;
@@ -55,10 +57,11 @@ void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const 
 
 void check_lessons(const RenderSettings& settings) {
   if (settings.sampler != Sampler::rl || settings.rl.update != UpdateRule::monte_carlo) return;
-  check(settings.max_bounces <= kMostLessons,
-        "rl.update monte_carlo keeps all events of a path and allows max_bounces up to {}, not {}; lower it or "
-        "choose another rule",
-        kMostLessons, settings.max_bounces);
+  check(
+      settings.max_bounces <= kMostLessons,
+      "rl.update monte_carlo keeps all events of a path and allows max_bounces up to {}, not {}; lower it or "
+      "choose another rule",
+      kMostLessons, settings.max_bounces);
 }
 
 }  // namespace
