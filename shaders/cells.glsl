@@ -24,7 +24,11 @@ Cell no_cell(Surface s) {
   return Cell(NO_CELL, tangent_of(s.normal));
 }
 
+#if CELLS == CELLS_GRID
+#include "grid.glsl"
+#else
 #include "voronoi.glsl"
+#endif
 
 vec3 to_cell(Cell cell, vec3 normal, vec3 direction) {
   return vec3(dot(direction, cell.tangent), dot(direction, cross(normal, cell.tangent)), dot(direction, normal));

@@ -107,6 +107,8 @@ struct Parameters {
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
+  vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
+  uvec4 grid_boxes;     // of cells grid: x, y, z: along each axis
 };
 
 const int BINDING_PARAMETERS = 0;
@@ -117,6 +119,7 @@ const int BINDING_MATERIALS = 3;
 const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
 const int BINDING_SITE_RANGES = 6;
+const int BINDING_GRID_ROWS = BINDING_SITES;  // cells are either around sites or of a grid
 const int BINDING_Q_VALUES = 7;
 const int BINDING_Q_VISITS = 8;
 const int BINDING_TARGET_SUMS = 9;

@@ -12,6 +12,8 @@ namespace qtrace {
 namespace {
 
 constexpr std::uint32_t kSidesPerSite = 2;
+constexpr const char* kGridRows = "grid boxes x 6 normals (rl.grid_resolution)";
+static_assert(kNoRow == gpu::NO_ENTRY);
 
 // Rounded away from one another.
 gpu::uint pack_bounds(glm::vec3 lo, glm::vec3 hi) {
@@ -63,25 +65,48 @@ std::vector<CellState> site_states(const CellSites& sites) {
   return states;
 }
 
+std::vector<CellState> grid_states(const CellGrid& grid) {
+  std::vector<CellState> states;
+  for (const GridCell& cell : grid.cells) states.push_back({cell.centre, cell.normal, kNoObject});
+  return states;
+}
+
 }  // namespace
 
 CellBuffers::CellBuffers(const Scene& scene, const RlSettings& settings)
-    : CellBuffers(place_sites(scene, settings)) {}
+    : CellBuffers(settings.cells == CellKind::grid ? CellBuffers(build_grid(scene, settings.grid_resolution))
+                                                   : CellBuffers(place_sites(scene, settings))) {}
 
 CellBuffers::CellBuffers(CellSites sites) : CellBuffers(sites, order_as_trees(sites)) {}
 
 CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
-      sites_("Voronoi sites", pack_sites(sites, nodes)),
+      cells_("Voronoi sites", pack_sites(sites, nodes)),
       ranges_("site ranges", pack_ranges(sites)) {}
 
+CellBuffers::CellBuffers(const CellGrid& grid)
+    : states_(grid_states(grid)),
+      grid_(grid.frame),
+      cells_(kGridRows, grid.rows),
+      ranges_("site ranges", 0) {}
+
 void CellBuffers::bind() const {
-  sites_.bind_storage(gpu::BINDING_SITES);
+  cells_.bind_storage(gpu::BINDING_SITES);
   ranges_.bind_storage(gpu::BINDING_SITE_RANGES);
 }
 
+void CellBuffers::check_size(const Scene& scene, const RlSettings& settings) {
+  if (settings.cells == CellKind::grid) {
+    const GridFrame frame = grid_frame(scene, settings.grid_resolution);
+    gpu::check_buffer_size(kGridRows, frame.entries() * sizeof(std::uint32_t));
+  } else {
+    gpu::check_buffer_size("Voronoi sites", count(scene, settings) / kSidesPerSite * sizeof(gpu::Site));
+  }
+}
+
 std::size_t CellBuffers::count(const Scene& scene, const RlSettings& settings) {
+  if (settings.cells == CellKind::grid) return build_grid(scene, settings.grid_resolution).cells.size();
   const std::vector<std::uint32_t> counts = site_counts(scene, settings);
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) * kSidesPerSite;
 }

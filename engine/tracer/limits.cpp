@@ -26,6 +26,7 @@ constexpr int kMostLessons = 64;
 
 // Turns of a loop that one search for a cell may take.
 int search_turns(const Scene& scene, const RlSettings& settings) {
+  if (settings.cells == CellKind::grid) return 0;
   const std::vector<std::uint32_t> counts = site_counts(scene, settings);
   const std::uint32_t most = counts.empty() ? 0 : std::ranges::max(counts);
   if (settings.site_search == SiteSearch::tree) {
@@ -74,6 +75,7 @@ void check_limits(const gpu::Context& context, const Scene& scene, const RenderS
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
   const std::size_t columns = table_columns(effective, features);
+  CellBuffers::check_size(scene, settings.rl);
   gpu::check_buffer_size("Q targets (cells x columns)",
                          CellBuffers::count(scene, settings.rl) * columns * sizeof(gpu::TargetSum));
   check_loop_budget(context.device(), scene, effective, columns);
