@@ -49,6 +49,22 @@ TEST(Agreement, TableAloneWhileItLearns) {
   }
 }
 
+// States that are no Voronoi cells; coarse boxes share their row among surfaces that see different light.
+TEST(Agreement, GridCells) {
+  const Scene scene = shipped("cornell_box.glb");
+  RenderSettings settings = with_method(base_settings(960), {"", Sampler::bsdf, Nee::one_ray, {}});
+  settings.max_bounces = 2;
+  const Rendering truth = render(scene, settings, 256);
+  settings.rl.cells = CellKind::grid;
+  for (const int resolution : {3, 16}) {
+    SCOPED_TRACE(testing::Message() << "resolution " << resolution);
+    settings.rl.grid_resolution = resolution;
+    ++settings.seed;
+    const Rendering r = render(scene, with_method(settings, {"", Sampler::rl, Nee::one_ray, {}}), 192);
+    expect_same_image(r, truth, 2 * kBlocks);
+  }
+}
+
 TEST(Agreement, RussianRouletteKeepsTheMean) {
   const Scene scene = shipped("cornell_box.glb");
   RenderSettings settings = with_method(base_settings(3), {"", Sampler::bsdf, Nee::one_ray, {}});
