@@ -34,9 +34,10 @@ TEST_F(Learning, BinsAreDrawnInProportionToTheirValues) {
   const std::vector<float> taught{1, 5, 0, 2};
   std::copy(taught.begin(), taught.end(), values.begin() + 2 * bins);
   table_->set_values(values);
-  const auto drawn = probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
-                                      "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
-                                      static_cast<std::uint32_t>(values.size()), defines_);
+  const auto drawn =
+      probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+                       "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
+                       static_cast<std::uint32_t>(values.size()), defines_);
   const double floor = settings_.rl.bin_floor;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool is_taught = i / bins == 2;
@@ -67,7 +68,8 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   EXPECT_EQ(std::max_element(cell, cell + 36) - cell, found[0].y);
 }
 
-// A search that is cut says so: among 100,000 sites, one after the other and four a turn, or through their tree.
+// A search that is cut says so: among 100,000 sites, one after the other and four a turn, or through their
+// tree.
 TEST_F(Learning, CutSearchForCellsIsNoticed) {
   if (device().device().renderer.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "no loop budget is known";

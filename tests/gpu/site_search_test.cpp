@@ -1,6 +1,9 @@
 // The search through the tree of sites finds what a search through all sites finds, index for index.
+#include "engine/core/check.h"
+#include "engine/scene/analytic.h"
 #include "engine/scene/gltf.h"
 #include "engine/tracer/cell_buffers.h"
+#include "engine/tracer/limits.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
 
@@ -182,6 +185,26 @@ TEST(SiteSearch, OfEqualSites) {
 TEST(SiteSearch, OfFewSites) { expect_same_cells(scattered({0, 1, 2, 3, 0, 4, 5, 6, 7, 8, 9})); }
 
 TEST(SiteSearch, AmongNormalsOfAllDirections) { expect_same_cells(scattered({300, 1000})); }
+
+// Six searches of 25,000 turns each would be cut; through the tree they are short.
+TEST(SiteSearch, TooLongALinearSearchIsRefused) {
+  if (device().device().renderer.find("llvmpipe") == std::string::npos)
+    GTEST_SKIP() << "no loop budget is known";
+  const Scene scene = lit_floor(0.8F, 10, 1, 1).scene;
+  RenderSettings settings;
+  settings.max_bounces = 5;
+  settings.rl.sites_per_object = 100000;
+  settings.rl.bins_theta = settings.rl.bins_phi = 2;
+  EXPECT_NO_THROW(check_limits(device(), scene, settings));
+  settings.rl.site_search = SiteSearch::linear;
+  try {
+    check_limits(device(), scene, settings);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("choose rl.site_search tree"), std::string::npos)
+        << error.what();
+  }
+}
 
 }  // namespace
 }  // namespace qtrace::test

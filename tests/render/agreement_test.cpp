@@ -61,8 +61,8 @@ Scene turned(Scene scene) {
   return scene;
 }
 
-// States that are no Voronoi cells, and directions from the table alone, in frames that lie askew to the walls.
-// Coarse boxes share their rows among surfaces that see different light.
+// States that are no Voronoi cells, and directions from the table alone, in frames that lie askew to the
+// walls. Coarse boxes share their rows among surfaces that see different light.
 TEST(Agreement, GridCells) {
   const Scene scene = turned(shipped("cornell_box.glb"));
   RenderSettings settings = with_method(base_settings(960), {"", Sampler::bsdf, Nee::one_ray, {}});
