@@ -10,8 +10,9 @@
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
-#include <bit>
+#include <algorithm>
 
 namespace qtrace::test {
 namespace {
