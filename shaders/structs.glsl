@@ -47,13 +47,13 @@ struct Light {
   uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
 };
 
-// Centre of a Voronoi cell.
+// Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h).
 struct Site {
-  vec4 position;
-  vec4 normal;  // unit
+  vec4 position;  // w: bits of the axis by which the node is split
+  vec4 normal;    // xyz: unit, w: bits of its subtree's bounds of normals: lower x, y, z, upper x, y, z
 };
 
-// The sites of an object: a range of the site buffer.
+// The sites of an object: a range of the site buffer, in the order of the tree.
 struct SiteRange {
   uint first;
   uint count;
@@ -107,6 +107,8 @@ struct Parameters {
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
+  vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
+  uvec4 grid_boxes;     // of cells grid: x, y, z: along each axis
 };
 
 const int BINDING_PARAMETERS = 0;
@@ -117,6 +119,7 @@ const int BINDING_MATERIALS = 3;
 const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
 const int BINDING_SITE_RANGES = 6;
+const int BINDING_GRID_ROWS = BINDING_SITES;  // cells are either around sites or of a grid
 const int BINDING_Q_VALUES = 7;
 const int BINDING_Q_VISITS = 8;
 const int BINDING_TARGET_SUMS = 9;
@@ -142,6 +145,8 @@ const uint NO_LIGHT = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
+const uint NORMAL_BOUND_BITS = 5u;  // -1 to 1, in NORMAL_BOUND_STEPS steps
+const uint NORMAL_BOUND_STEPS = (1u << NORMAL_BOUND_BITS) - 1u;
 
 // Fixed point of a target that is a radiance: 2^-20 resolves a room at 1e-3 to 0.1 % per sample; 64 bits of it
 // hold 1.7e13.

@@ -1,9 +1,10 @@
 #include "engine/cells/sites.h"
 
 #include "engine/cells/hammersley.h"
+#include "engine/cells/site_counts.h"
 #include "engine/cells/uv_map.h"
-#include "engine/core/check.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ std::vector<CellSite> map_points(const Scene& scene, const UvMap& map, std::uint
 
 // Empty where the UV map does not yield enough sites.
 std::vector<CellSite> place_by_uv(const Scene& scene, const Object& object, std::uint32_t wanted) {
-  if (!object.has_uv) return {};
+  if (!object.has_uv || wanted == 0) return {};
   const UvMap map(scene, object);
   std::uint32_t points = wanted;
   while (points <= wanted * kMostPointsPerSite) {
@@ -67,7 +68,7 @@ std::vector<CellSite> place_by_area(const Scene& scene, const Object& object, st
     sums[i] = total += area_of(scene.triangles[object.first_triangle + i]);
   }
   std::vector<CellSite> sites;
-  for (std::uint32_t i = 0; i < wanted && object.triangle_count > 0; ++i) {
+  for (std::uint32_t i = 0; i < wanted; ++i) {
     const glm::dvec2 p = hammersley(i, wanted);
     const auto found = std::upper_bound(sums.begin(), sums.end(), p.x * total) - sums.begin();
     const auto k = std::min(static_cast<std::size_t>(found), sums.size() - 1);
@@ -82,22 +83,22 @@ std::vector<CellSite> place_by_area(const Scene& scene, const Object& object, st
 
 }  // namespace
 
-CellSites place_sites(const Scene& scene, SitePlacement placement, int sites_per_object) {
-  check(sites_per_object >= 1, "sites_per_object is {}: at least 1 is needed", sites_per_object);
-  const auto wanted = static_cast<std::uint32_t>(sites_per_object);
+CellSites place_sites(const Scene& scene, const RlSettings& settings) {
+  const std::vector<std::uint32_t> counts = site_counts(scene, settings);
   CellSites cells;
   cells.first.push_back(0);
-  for (const Object& object : scene.objects) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
     std::vector<CellSite> sites;
-    if (placement == SitePlacement::uv) {
-      sites = place_by_uv(scene, object, wanted);
-      if (sites.empty()) {
+    if (settings.site_placement == SitePlacement::uv) {
+      sites = place_by_uv(scene, object, counts[o]);
+      if (sites.empty() && counts[o] > 0) {
         cells.warnings.push_back(
             fmt::format("object '{}' has {}: its Voronoi sites are placed by area", object.name,
                         object.has_uv ? "a UV map that covers nearly nothing" : "no UV map"));
       }
     }
-    if (sites.empty()) sites = place_by_area(scene, object, wanted);
+    if (sites.empty()) sites = place_by_area(scene, object, counts[o]);
     cells.sites.insert(cells.sites.end(), sites.begin(), sites.end());
     cells.first.push_back(static_cast<std::uint32_t>(cells.sites.size()));
   }

@@ -23,11 +23,11 @@ struct CellSites {
   std::vector<std::string> warnings;  // objects whose sites could not stand as asked
 };
 
-// `sites_per_object` sites on every object, at Hammersley points (van der Corput 1935; base 2) mapped
+// site_counts() sites on every object, at Hammersley points (van der Corput 1935; base 2) mapped
 //   uv:   through the object's UV map; points beside its islands are replaced by taking a denser set, so that
 //         every site lives. Where islands overlap, the points alternate between them. An object without
 //         UV map, or with one that covers nearly nothing, is placed by area instead, with a warning.
 //   area: over the object's triangles in proportion to their area.
-CellSites place_sites(const Scene& scene, SitePlacement placement, int sites_per_object);
+CellSites place_sites(const Scene& scene, const RlSettings& settings);
 
 }  // namespace qtrace

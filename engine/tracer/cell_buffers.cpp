@@ -1,14 +1,47 @@
 #include "engine/tracer/cell_buffers.h"
 
+#include "engine/cells/site_counts.h"
+
+#include <glm/common.hpp>
+
+#include <bit>
+#include <numeric>
+#include <utility>
+
 namespace qtrace {
 namespace {
 
 constexpr std::uint32_t kSidesPerSite = 2;
+constexpr const char* kGridRows = "grid boxes x 6 normals (rl.grid_resolution)";
+static_assert(kNoRow == gpu::NO_ENTRY);
 
-std::vector<gpu::Site> pack_sites(const CellSites& sites) {
+// Rounded away from one another.
+gpu::uint pack_bounds(glm::vec3 lo, glm::vec3 hi) {
+  const auto steps = [](glm::vec3 v) {
+    return (v + 1.0F) * (0.5F * static_cast<float>(gpu::NORMAL_BOUND_STEPS));
+  };
+  const auto whole = [](glm::vec3 v) {
+    return glm::uvec3(glm::clamp(v, 0.0F, float{gpu::NORMAL_BOUND_STEPS}));
+  };
+  const glm::uvec3 low = whole(glm::floor(steps(lo)));
+  const glm::uvec3 high = whole(glm::ceil(steps(hi)));
+  gpu::uint bits = 0;
+  for (const gpu::uint bound : {high.z, high.y, high.x, low.z, low.y, low.x}) {
+    bits = (bits << gpu::NORMAL_BOUND_BITS) | bound;
+  }
+  return bits;
+}
+
+std::vector<gpu::Site> pack_sites(const CellSites& sites, const std::vector<SiteNode>& nodes) {
   std::vector<gpu::Site> packed;
   packed.reserve(sites.sites.size());
-  for (const CellSite& s : sites.sites) packed.push_back({glm::vec4(s.position, 0), glm::vec4(s.normal, 0)});
+  for (std::size_t i = 0; i < sites.sites.size(); ++i) {
+    const CellSite& s = sites.sites[i];
+    const SiteNode& node = nodes[i];
+    packed.push_back(
+        {glm::vec4(s.position, std::bit_cast<float>(node.axis)),
+         glm::vec4(s.normal, std::bit_cast<float>(pack_bounds(node.lo_normal, node.hi_normal)))});
+  }
   return packed;
 }
 
@@ -32,24 +65,50 @@ std::vector<CellState> site_states(const CellSites& sites) {
   return states;
 }
 
+std::vector<CellState> grid_states(const CellGrid& grid) {
+  std::vector<CellState> states;
+  for (const GridCell& cell : grid.cells) states.push_back({cell.centre, cell.normal, kNoObject});
+  return states;
+}
+
 }  // namespace
 
 CellBuffers::CellBuffers(const Scene& scene, const RlSettings& settings)
-    : CellBuffers(place_sites(scene, settings.site_placement, settings.sites_per_object)) {}
+    : CellBuffers(settings.cells == CellKind::grid ? CellBuffers(build_grid(scene, settings.grid_resolution))
+                                                   : CellBuffers(place_sites(scene, settings))) {}
 
-CellBuffers::CellBuffers(const CellSites& sites)
+CellBuffers::CellBuffers(CellSites sites) : CellBuffers(sites, order_as_trees(sites)) {}
+
+CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
-      sites_("Voronoi sites", pack_sites(sites)),
+      cells_("Voronoi sites", pack_sites(sites, nodes)),
       ranges_("site ranges", pack_ranges(sites)) {}
 
+CellBuffers::CellBuffers(const CellGrid& grid)
+    : states_(grid_states(grid)),
+      grid_(grid.frame),
+      cells_(kGridRows, grid.rows),
+      ranges_("site ranges", 0) {}
+
 void CellBuffers::bind() const {
-  sites_.bind_storage(gpu::BINDING_SITES);
+  cells_.bind_storage(gpu::BINDING_SITES);
   ranges_.bind_storage(gpu::BINDING_SITE_RANGES);
 }
 
+void CellBuffers::check_size(const Scene& scene, const RlSettings& settings) {
+  if (settings.cells == CellKind::grid) {
+    const GridFrame frame = grid_frame(scene, settings.grid_resolution);
+    gpu::check_buffer_size(kGridRows, frame.entries() * sizeof(std::uint32_t));
+  } else {
+    gpu::check_buffer_size("Voronoi sites", count(scene, settings) / kSidesPerSite * sizeof(gpu::Site));
+  }
+}
+
 std::size_t CellBuffers::count(const Scene& scene, const RlSettings& settings) {
-  return scene.objects.size() * static_cast<std::size_t>(settings.sites_per_object) * kSidesPerSite;
+  if (settings.cells == CellKind::grid) return build_grid(scene, settings.grid_resolution).cells.size();
+  const std::vector<std::uint32_t> counts = site_counts(scene, settings);
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) * kSidesPerSite;
 }
 
 }  // namespace qtrace

@@ -1,5 +1,6 @@
 #include "engine/tracer/limits.h"
 
+#include "engine/cells/site_counts.h"
 #include "engine/core/check.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/scene_buffers.h"
@@ -7,37 +8,61 @@
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/shader_variant.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace qtrace {
 namespace {
 
 constexpr int kLoopBudget = 65535;
-constexpr int kSitesPerIteration = 4;  // of find_cell() in cells.glsl
 constexpr int kLoopsPerColumn = 3;     // of learn.comp: visits, targets, distribution
+constexpr int kSitesPerIteration = 4;  // of the linear search in voronoi.glsl
+// Turns of the search through a tree of sites, for each of its levels. Two to three are usual, twenty were
+// seen; no bound below the number of sites holds everywhere, and a search that is cut is detected
+// (loop_was_cut).
+constexpr int kTurnsPerLevel = 20;
 // Registers of an invocation spill to memory for the lessons of monte_carlo.glsl, 48 bytes for each.
 constexpr int kMostLessons = 64;
 
-void check_loop_budget(const gpu::DeviceInfo& device, const RenderSettings& settings, std::size_t columns) {
+// Turns of a loop that one search for a cell may take.
+int search_turns(const Scene& scene, const RlSettings& settings) {
+  if (settings.cells == CellKind::grid) return 0;
+  const std::vector<std::uint32_t> counts = site_counts(scene, settings);
+  const std::uint32_t most = counts.empty() ? 0 : std::ranges::max(counts);
+  if (settings.site_search == SiteSearch::tree) {
+    return kTurnsPerLevel * static_cast<int>(std::bit_width(most));
+  }
+  return (static_cast<int>(most) + kSitesPerIteration - 1) / kSitesPerIteration;
+}
+
+void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const RenderSettings& settings,
+                       std::size_t columns) {
   const bool is_limited = device.renderer.find("llvmpipe") != std::string::npos;
   if (!is_limited) return;
-  check(columns <= kLoopBudget / kLoopsPerColumn / 2,
-        "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "
-        "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
-        "another device",
-        columns, device.renderer, kLoopBudget);
-  const int sites = (settings.rl.sites_per_object + kSitesPerIteration - 1) / kSitesPerIteration;
+  check(
+      columns <= kLoopBudget / kLoopsPerColumn / 2,
+      "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "
+      "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
+      "another device",
+      columns, device.renderer, kLoopBudget);
+  const int turns = search_turns(scene, settings.rl);
   const int hits = settings.max_bounces + 1;
-  check(sites <= kLoopBudget / 2 / hits,
-        "a path of max_bounces {} over {} sites per object may need {} loop iterations, and the driver of "
-        "this device ({}) cuts loops after {}; lower max_bounces or rl.sites_per_object, or use another device",
-        settings.max_bounces, settings.rl.sites_per_object, sites * hits, device.renderer, kLoopBudget);
+  const bool is_linear = settings.rl.site_search == SiteSearch::linear;
+  check(turns <= kLoopBudget / 2 / hits,
+        "a path of max_bounces {}, with up to {} turns of the search for each of its cells, may need {} loop "
+        "iterations, and the driver of this device ({}) cuts loops after {}; lower max_bounces{}, or use "
+        "another device",
+        settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, kLoopBudget,
+        is_linear ? ", choose rl.site_search tree, lower the number of sites" : "");
 }
 
 void check_lessons(const RenderSettings& settings) {
   if (settings.sampler != Sampler::rl || settings.rl.update != UpdateRule::monte_carlo) return;
-  check(settings.max_bounces <= kMostLessons,
-        "rl.update monte_carlo keeps all events of a path and allows max_bounces up to {}, not {}; lower it or "
-        "choose another rule",
-        kMostLessons, settings.max_bounces);
+  check(
+      settings.max_bounces <= kMostLessons,
+      "rl.update monte_carlo keeps all events of a path and allows max_bounces up to {}, not {}; lower it or "
+      "choose another rule",
+      kMostLessons, settings.max_bounces);
 }
 
 }  // namespace
@@ -50,9 +75,10 @@ void check_limits(const gpu::Context& context, const Scene& scene, const RenderS
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
   const std::size_t columns = table_columns(effective, features);
+  CellBuffers::check_size(scene, settings.rl);
   gpu::check_buffer_size("Q targets (cells x columns)",
                          CellBuffers::count(scene, settings.rl) * columns * sizeof(gpu::TargetSum));
-  check_loop_budget(context.device(), effective, columns);
+  check_loop_budget(context.device(), scene, effective, columns);
 }
 
 }  // namespace qtrace

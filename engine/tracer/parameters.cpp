@@ -5,7 +5,7 @@
 namespace qtrace {
 
 gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& settings,
-                                const gpu::SceneFeatures& features, gpu::uint cells) {
+                                const gpu::SceneFeatures& features, const CellBuffers* cells) {
   const auto whole = [](int value) { return static_cast<gpu::uint>(value); };
   const auto real = [](double value) { return static_cast<float>(value); };
   const float up = std::tan(camera.vertical_fov / 2);
@@ -17,15 +17,19 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.camera_right = m[0] * (up * aspect);
   p.camera_up = m[1] * up;
   p.camera_forward = -m[2];
-  p.environment = glm::vec4(real(e[0]), real(e[1]), real(e[2]),
-                            features.brightest > 0 ? 1 / features.brightest : 0);
+  p.environment =
+      glm::vec4(real(e[0]), real(e[1]), real(e[2]), features.brightest > 0 ? 1 / features.brightest : 0);
   p.rl = glm::vec4(real(settings.rl.bsdf_fraction), real(settings.rl.bin_floor),
                    real(settings.rl.cell_normal_threshold), real(settings.light_floor));
   p.learning = glm::vec4(real(settings.rl.rate_constant), real(settings.rl.rate_exponent),
                          real(settings.rl.initial_value), 0);
   p.image = glm::uvec4(whole(settings.width), whole(settings.height), settings.seed, 0);
-  p.path = glm::uvec4(whole(settings.max_bounces), whole(settings.russian_roulette_start),
-                      features.lights, cells);
+  p.path = glm::uvec4(whole(settings.max_bounces), whole(settings.russian_roulette_start), features.lights,
+                      cells != nullptr ? cells->count() : 0);
+  if (cells != nullptr) {
+    p.grid = glm::vec4(cells->grid().origin, cells->grid().boxes_per_unit);
+    p.grid_boxes = glm::uvec4(cells->grid().boxes, 0);
+  }
   return p;
 }
 

@@ -14,6 +14,8 @@ std::string number(Choice choice) {
 void define_table(gpu::Defines& defines, const RenderSettings& settings, const gpu::SceneFeatures& features) {
   defines["HAS_TABLE"] = "1";
   defines["LIGHT_COLUMNS"] = number(learns_lights(settings) ? features.lights : 0);
+  defines["CELLS"] = number(settings.rl.cells);
+  defines["SITE_SEARCH"] = number(settings.rl.site_search);
   defines["LEARNING_RATE"] = number(settings.rl.learning_rate);
   defines["INITIAL_TABLE"] = number(settings.rl.initial_table);
   if (settings.sampler != Sampler::rl) return;

@@ -33,7 +33,7 @@ struct Tracer::State {
                     shader_defines(settings, buffers.features()));
     }
     const gpu::Parameters parameters =
-        make_parameters(scene.camera, settings, buffers.features(), table ? table->cells().count() : 0);
+        make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
     parameter_block.write(0, &parameters, sizeof(parameters));
     warnings = buffers.warnings();
     if (table) {

@@ -76,7 +76,9 @@ const std::map<std::string, Field> kFields{FIELD(Statistics, cut_pixel),
                                            FIELD(Parameters, rl),
                                            FIELD(Parameters, learning),
                                            FIELD(Parameters, image),
-                                           FIELD(Parameters, path)};
+                                           FIELD(Parameters, path),
+                                           FIELD(Parameters, grid),
+                                           FIELD(Parameters, grid_boxes)};
 #undef FIELD
 
 GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {

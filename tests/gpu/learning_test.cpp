@@ -34,9 +34,10 @@ TEST_F(Learning, BinsAreDrawnInProportionToTheirValues) {
   const std::vector<float> taught{1, 5, 0, 2};
   std::copy(taught.begin(), taught.end(), values.begin() + 2 * bins);
   table_->set_values(values);
-  const auto drawn = probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
-                                      "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
-                                      static_cast<std::uint32_t>(values.size()), defines_);
+  const auto drawn =
+      probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+                       "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
+                       static_cast<std::uint32_t>(values.size()), defines_);
   const double floor = settings_.rl.bin_floor;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool is_taught = i / bins == 2;
@@ -67,26 +68,30 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   EXPECT_EQ(std::max_element(cell, cell + 36) - cell, found[0].y);
 }
 
-// A search that is cut says so: each of these looks through 100,000 sites, four a turn.
+// A search that is cut says so: among 100,000 sites, one after the other and four a turn, or through their
+// tree.
 TEST_F(Learning, CutSearchForCellsIsNoticed) {
   if (device().device().renderer.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "no loop budget is known";
-  RlSettings many = settings_.rl;
-  many.sites_per_object = 100000;
-  const QTable table(scene_, many, 4, defines_);
+  settings_.rl.sites_per_object = 100000;
+  const QTable table(scene_, settings_.rl, 4, defines_);
   table.bind();
-  const std::string search =
+  const std::string body =
       kViewedSurface +
-      "int sum = 0;\nfor (int i = 0; i < SEARCHES; ++i) { s.position.x += 1e-3; sum += find_cell(s).index; "
+      "int sum = 0;\nfor (int i = 0; i < SEARCHES; ++i) { s.position.x += 1e-5; sum += find_cell(s).index; "
       "}\n"
       "result = uvec4(uint(sum), loop_was_cut ? 1u : 0u, 0u, 0u);";
-  for (const auto& [searches, is_cut] : {std::pair{"1", 0U}, std::pair{"4", 1U}}) {
-    gpu::Defines defines = defines_;
+  const auto is_cut = [&](SiteSearch search, const char* searches) {
+    settings_.rl.site_search = search;
+    gpu::Defines defines = shader_defines(settings_, buffers_->features());
     defines["SEARCHES"] = searches;
-    const auto found =
-        probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "", search, 8, defines);
-    EXPECT_EQ(found[0].y, is_cut) << searches << " searches";
-  }
+    const std::vector<std::string> files{"variants.glsl", "qtable.glsl", "camera.glsl"};
+    return probe<glm::uvec4>("uvec4", files, "", body, 8, defines)[0].y == 1;
+  };
+  EXPECT_FALSE(is_cut(SiteSearch::linear, "1"));
+  EXPECT_TRUE(is_cut(SiteSearch::linear, "4"));
+  EXPECT_FALSE(is_cut(SiteSearch::tree, "100"));
+  EXPECT_TRUE(is_cut(SiteSearch::tree, "10000"));
 }
 
 TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {

@@ -92,7 +92,7 @@ class Stage {
       table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_);
     }
     const gpu::Parameters parameters =
-        make_parameters(scene_.camera, settings_, buffers_.features(), table_ ? table_->cells().count() : 0);
+        make_parameters(scene_.camera, settings_, buffers_.features(), table_ ? &table_->cells() : nullptr);
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     buffers_.bind();

@@ -4,6 +4,7 @@
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <random>
@@ -46,6 +47,36 @@ TEST(Agreement, TableAloneWhileItLearns) {
       const Rendering r = render(scene, with_method(settings, {"", Sampler::rl, Nee::none, update}), 256);
       expect_same_image(r, truth, 4 * kLargeBlocks, kLargeBlock);
     }
+  }
+}
+
+// Turned so that no wall is square to an axis.
+Scene turned(Scene scene) {
+  const glm::mat4 turn = glm::rotate(glm::mat4(1), 0.7F, glm::normalize(glm::vec3(1, 2, -0.6F)));
+  for (Triangle& t : scene.triangles) {
+    for (glm::vec3& p : t.position) p = glm::vec3(turn * glm::vec4(p, 1));
+    for (glm::vec3& n : t.normal) n = glm::vec3(turn * glm::vec4(n, 0));
+  }
+  scene.camera.world_from_camera = turn * scene.camera.world_from_camera;
+  return scene;
+}
+
+// States that are no Voronoi cells, and directions from the table alone, in frames that lie askew to the
+// walls. Coarse boxes share their rows among surfaces that see different light.
+TEST(Agreement, GridCells) {
+  const Scene scene = turned(shipped("cornell_box.glb"));
+  RenderSettings settings = with_method(base_settings(960), {"", Sampler::bsdf, Nee::one_ray, {}});
+  settings.max_bounces = 2;
+  const Rendering truth = render(scene, settings, 128);
+  settings.rl.cells = CellKind::grid;
+  settings.rl.bsdf_fraction = 0;
+  settings.rl.bin_floor = 0.3;
+  for (const int resolution : {3, 16}) {
+    SCOPED_TRACE(testing::Message() << "resolution " << resolution);
+    settings.rl.grid_resolution = resolution;
+    ++settings.seed;
+    const Rendering r = render(scene, with_method(settings, {"", Sampler::rl, Nee::one_ray, {}}), 128);
+    expect_same_image(r, truth, 2 * kBlocks);
   }
 }
 

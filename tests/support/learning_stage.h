@@ -35,7 +35,7 @@ class LearningStage : public testing::Test {
     defines_ = shader_defines(settings_, buffers_->features());
     table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_->features()), defines_);
     const gpu::Parameters parameters =
-        make_parameters(scene_.camera, settings_, buffers_->features(), table_->cells().count());
+        make_parameters(scene_.camera, settings_, buffers_->features(), &table_->cells());
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     statistics_.bind_storage(gpu::BINDING_STATISTICS);

@@ -19,6 +19,13 @@ TEST(Hammersley, IsTheKnownSet) {
   EXPECT_EQ(hammersley(3, 4), glm::dvec2(0.875, 0.75));
 }
 
+RlSettings sites_each(SitePlacement placement, int count) {
+  RlSettings settings;
+  settings.site_placement = placement;
+  settings.sites_per_object = count;
+  return settings;
+}
+
 Scene unit_quad() {
   Scene scene;
   scene.materials = {lambert(glm::vec3(1))};
@@ -28,7 +35,7 @@ Scene unit_quad() {
 
 // The quad's UV map is the unit square, so site i stands at Hammersley point i, scaled.
 TEST(Sites, StandAtHammersleyPointsThroughTheUvMap) {
-  const CellSites cells = place_sites(unit_quad(), SitePlacement::uv, 64);
+  const CellSites cells = place_sites(unit_quad(), sites_each(SitePlacement::uv, 64));
   ASSERT_EQ(cells.sites.size(), 64U);
   for (std::uint32_t i = 0; i < 64; ++i) {
     const glm::dvec2 p = hammersley(i, 64);
@@ -55,7 +62,7 @@ class SitesOnSimple : public testing::TestWithParam<SitePlacement> {};
 
 TEST_P(SitesOnSimple, AllLiveOnTheirObjects) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
-  const CellSites cells = place_sites(scene, GetParam(), 100);
+  const CellSites cells = place_sites(scene, sites_each(GetParam(), 100));
   EXPECT_TRUE(cells.warnings.empty());
   ASSERT_EQ(cells.first.size(), scene.objects.size() + 1);
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
@@ -79,7 +86,7 @@ TEST(Sites, ByAreaFollowTheArea) {
   add_quad(scene, {10, 0, 0}, {6, 0, 0}, {0, 9, 0}, 0);
   scene.objects[0].triangle_count = 4;
   scene.objects.pop_back();
-  const CellSites cells = place_sites(scene, SitePlacement::area, 1000);
+  const CellSites cells = place_sites(scene, sites_each(SitePlacement::area, 1000));
   const auto on_large =
       std::ranges::count_if(cells.sites, [](const CellSite& s) { return s.position.x > 5; });
   EXPECT_NEAR(static_cast<double>(on_large), 900, 5);
@@ -90,7 +97,7 @@ TEST(Sites, OverlappingIslandsShareThePoints) {
   add_quad(scene, {0, 0, 10}, {2, 0, 0}, {0, 3, 0}, 0);
   scene.objects[0].triangle_count = 4;
   scene.objects.pop_back();
-  const CellSites cells = place_sites(scene, SitePlacement::uv, 100);
+  const CellSites cells = place_sites(scene, sites_each(SitePlacement::uv, 100));
   const auto on_second =
       std::ranges::count_if(cells.sites, [](const CellSite& s) { return s.position.z > 5; });
   EXPECT_NEAR(static_cast<double>(on_second), 50, 2);
@@ -101,7 +108,7 @@ TEST(Sites, RepeatingCoordinatesAreWrapped) {
   for (Triangle& t : scene.triangles) {
     for (glm::vec2& uv : t.uv) uv = uv * 3.0F - glm::vec2(7, 1);
   }
-  const CellSites cells = place_sites(scene, SitePlacement::uv, 90);
+  const CellSites cells = place_sites(scene, sites_each(SitePlacement::uv, 90));
   EXPECT_EQ(cells.sites.size(), 90U);
   // Nine tiles lie over one another: the sites spread over all of them.
   std::set<std::pair<int, int>> tiles;
@@ -112,7 +119,7 @@ TEST(Sites, RepeatingCoordinatesAreWrapped) {
 TEST(Sites, WithoutUvMapArePlacedByAreaWithAWarning) {
   Scene scene = unit_quad();
   scene.objects[0].has_uv = false;
-  const CellSites cells = place_sites(scene, SitePlacement::uv, 10);
+  const CellSites cells = place_sites(scene, sites_each(SitePlacement::uv, 10));
   EXPECT_EQ(cells.sites.size(), 10U);
   ASSERT_EQ(cells.warnings.size(), 1U);
   EXPECT_NE(cells.warnings[0].find("no UV map"), std::string::npos);
@@ -121,7 +128,7 @@ TEST(Sites, WithoutUvMapArePlacedByAreaWithAWarning) {
 TEST(Sites, WithADegenerateUvMapArePlacedByAreaWithAWarning) {
   Scene scene = unit_quad();
   for (Triangle& t : scene.triangles) t.uv = {};
-  const CellSites cells = place_sites(scene, SitePlacement::uv, 10);
+  const CellSites cells = place_sites(scene, sites_each(SitePlacement::uv, 10));
   EXPECT_EQ(cells.sites.size(), 10U);
   ASSERT_EQ(cells.warnings.size(), 1U);
   EXPECT_NE(cells.warnings[0].find("covers nearly nothing"), std::string::npos);

@@ -1,0 +1,22 @@
+// Cells of a regular grid of boxes, six in each: for the axes that the normal towards the viewer can be nearest
+// to (engine/cells/grid.h). Not every box has them; a hit without a cell is counted as one.
+layout(std430, binding = BINDING_GRID_ROWS) restrict readonly buffer GridBuffer { uint grid_rows[]; };
+
+// x, -x, y, -y, z, -z.
+uint nearest_axis(vec3 normal) {
+  vec3 size = abs(normal);
+  uint k = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+  float component = k == 0u ? normal.x : k == 1u ? normal.y : normal.z;
+  return 2u * k + (component < 0.0 ? 1u : 0u);
+}
+
+Cell find_cell(Surface s) {
+  uvec3 boxes = parameters.grid_boxes.xyz;
+  vec3 place = max((s.position - parameters.grid.xyz) * parameters.grid.w, vec3(0.0));
+  uvec3 box = min(uvec3(place), boxes - 1u);
+  uint axis = nearest_axis(s.normal);
+  uint row = grid_rows[((box.z * boxes.y + box.y) * boxes.x + box.x) * 6u + axis];
+  if (row == NO_ENTRY) return no_cell(s);
+  vec3 normal = vec3(equal(uvec3(axis >> 1), uvec3(0u, 1u, 2u))) * ((axis & 1u) == 0u ? 1.0 : -1.0);
+  return cell_at(s, row, normal);
+}
