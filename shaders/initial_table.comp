@@ -1,5 +1,5 @@
 #version 450 core
-// The table before anything is learned. One invocation per cell. Lights start at zero, which means by power.
+// The table before anything is learned. One invocation per cell.
 #include "variants.glsl"
 #include "scene.glsl"
 #include "random.glsl"
@@ -8,9 +8,13 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_Q_VALUES) restrict writeonly buffer QValueBuffer { float q_values[]; };
+layout(std430, binding = BINDING_Q_VISITS) restrict writeonly buffer QVisitBuffer { uint q_visits[]; };
+layout(std430, binding = BINDING_CELL_PLACES) restrict readonly buffer CellPlaceBuffer { CellPlace places[]; };
 
 // Apart from the random numbers of the paths, whose frames count from 1.
 const uint FRAME_OF_TABLE = 0u;
+
+#if SAMPLER == SAMPLER_RL
 
 float initial_value(uint cell, uint bin) {
 #if INITIAL_TABLE == INITIAL_CONSTANT
@@ -24,13 +28,60 @@ float initial_value(uint cell, uint bin) {
 #endif
 }
 
+void initialize_bins(uint cell) {
+  uint bin = 0u;
+  do {
+    q_values[first_bin(cell) + bin] = initial_value(cell, bin);
+    q_visits[first_bin(cell) + bin] = 0u;
+    ++bin;
+  } while (bin < uint(BINS));
+  loop_was_cut = loop_was_cut || bin < uint(BINS);
+}
+
+#endif
+
+#if LIGHT_COLUMNS > 0
+
+// A cell is no point and no plane: surfaces in it may face a light that its middle does not.
+const float LEAST_COSINE = 0.1;
+const float GUESSED_ALBEDO = 0.5;
+
+// The square of what a light contributes if nothing hides it, seen from the cell's middle, in units of the brightest
+// light: the prior of Vevoda, Kondapaneni & Krivanek 2018 (section 5), from a point for the light. What has no axis
+// shows a quarter of its area to all sides.
+float guess(uint cell, uint light) {
+  vec3 to_light = lights[light].centre.xyz - places[cell].position.xyz;
+  float distance2 = max(dot(to_light, to_light), 1e-30);
+  vec3 direction = to_light * inversesqrt(distance2);
+  vec3 axis = lights[light].axis.xyz;
+  float area = lights[light].centre.w;
+  float shown = max(-dot(axis, direction), LEAST_COSINE * length(axis)) + 0.25 * max(1.0 - length(axis), 0.0);
+  float cosine = max(dot(places[cell].normal.xyz, direction), LEAST_COSINE);
+  float contribution =
+      GUESSED_ALBEDO / PI * lights[light].axis.w * area * shown * cosine / (distance2 + area);
+  return contribution * contribution;
+}
+
+void initialize_lights(uint cell) {
+  uint light = 0u;
+  do {
+    q_values[first_light(cell) + light] = parameters.learning.w > 0.0 ? guess(cell, light) : 0.0;
+    q_visits[first_light(cell) + light] = uint(parameters.learning.w);
+    ++light;
+  } while (light < uint(LIGHT_COLUMNS));
+  loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
+}
+
+#endif
+
 void main() {
   uint cell = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
   if (cell >= parameters.path.w) return;
-  uint column = 0u;
-  do {
-    q_values[first_bin(cell) + column] = column < uint(BINS) ? initial_value(cell, column) : 0.0;
-    ++column;
-  } while (column < TABLE_COLUMNS);
-  if (column < TABLE_COLUMNS) report_cut(uvec2(cell, 0u));
+#if SAMPLER == SAMPLER_RL
+  initialize_bins(cell);
+#endif
+#if LIGHT_COLUMNS > 0
+  initialize_lights(cell);
+#endif
+  if (loop_was_cut) report_cut(uvec2(cell, 0u));
 }

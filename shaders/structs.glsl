@@ -45,6 +45,14 @@ struct LightTriangle {
 struct Light {
   vec4 choice;  // x: probability of choosing it where nothing is learned: by power, or uniform, y: by power
   uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
+  vec4 centre;  // xyz: mean point, w: area
+  vec4 axis;    // xyz: mean of the unit normals by area, w: mean radiance in units of the brightest light
+};
+
+// What a row of the table stands for.
+struct CellPlace {
+  vec4 position;
+  vec4 normal;  // unit, on the side that the cell is on
 };
 
 // Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h).
@@ -104,7 +112,7 @@ struct Parameters {
   vec4 camera_forward;  // unit
   vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light
   vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
-  vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value
+  vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value, w: light_prior
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
   vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
@@ -131,6 +139,7 @@ const int BINDING_STATISTICS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
 const int BINDING_LIGHTS = 16;
 const int BINDING_TOUCHED_CELLS = 17;
+const int BINDING_CELL_PLACES = 18;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 

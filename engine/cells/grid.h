@@ -1,6 +1,6 @@
 // A regular grid of boxes, times the six directions along the axes that a normal can be nearest to: states
 // that know nothing of the surfaces (Kim & Kim 2021, "Fast and Lightweight Path Guiding Algorithm on GPU";
-// Pan 2019, "Path Tracing with Q-Learning").
+// Pan 2019).
 #pragma once
 
 #include "engine/scene/scene.h"

@@ -38,6 +38,7 @@ struct RenderSettings {
   Nee nee = Nee::none;
   LightChoice lights = LightChoice::power;
   double light_floor = 0.2;
+  int light_prior = 2;
   RlSettings rl;
 
   bool operator==(const RenderSettings&) const = default;
@@ -82,6 +83,11 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
   // The lower end keeps every light reachable, whatever was learned.
   visit(KnobInfo{"light_floor", "probability", "share of learned light choices that goes by power", 0.001, 1},
         settings.light_floor);
+  visit(KnobInfo{"light_prior", "visits",
+                 "how many visits the guess that nothing hides a light counts for where lights are learned; 0: no "
+                 "guess, by power at first",
+                 0, 1000000},
+        settings.light_prior);
   visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},
         settings.rl);
 }

@@ -48,6 +48,27 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
+// Where a light is and faces; its radiance is not yet in units of the brightest.
+Light make_light(const Scene& scene, const std::vector<std::uint32_t>& triangles, double power) {
+  glm::dvec3 centre(0);
+  glm::dvec3 axis(0);
+  double area = 0;
+  bool both = false;
+  for (const std::uint32_t i : triangles) {
+    const Triangle& t = scene.triangles[i];
+    const double part = area_of(t);
+    centre += part / 3 * (glm::dvec3(t.position[0]) + glm::dvec3(t.position[1]) + glm::dvec3(t.position[2]));
+    axis += part * glm::normalize(area_vector(t.position));
+    area += part;
+    both = both || scene.materials[t.material].double_sided;
+  }
+  Light light{};
+  light.centre = vec4(glm::vec3(centre / area), static_cast<float>(area));
+  // What shines to all sides has no axis.
+  light.axis = vec4(both ? glm::vec3(0) : glm::vec3(axis / area), static_cast<float>(power / area));
+  return light;
+}
+
 // Appends a light of these triangles; its own choice is left open. Returns its power.
 double add_light(LightTable& table, const Scene& scene, const std::vector<std::uint32_t>& triangles) {
   std::vector<double> powers;
@@ -63,7 +84,7 @@ double add_light(LightTable& table, const Scene& scene, const std::vector<std::u
     const auto radiance = mean_radiance(scene.materials[scene.triangles[triangles[i]].material]);
     table.brightest = std::max(table.brightest, static_cast<float>(radiance));
   }
-  Light light{};
+  Light light = make_light(scene, triangles, power);
   light.link = uvec4(0, first, 0, static_cast<uint>(triangles.size()));
   table.lights.push_back(light);
   return power;
@@ -94,6 +115,7 @@ LightTable build_light_table(const Scene& scene, LightChoice choice) {
     light.choice = vec4(static_cast<float>(chances[i] / all), static_cast<float>(powers[i] / total), 0, 0);
     light.link.x = slots[i].alias;
     light.link.z = slots[i].threshold;
+    light.axis.w /= table.brightest;
   }
   return table;
 }

@@ -10,6 +10,13 @@ namespace {
 
 std::uint32_t groups_of(std::uint32_t cells) { return (cells + gpu::LEARN_GROUP - 1) / gpu::LEARN_GROUP; }
 
+std::vector<gpu::CellPlace> pack_places(const std::vector<CellState>& states) {
+  std::vector<gpu::CellPlace> places;
+  places.reserve(states.size());
+  for (const CellState& s : states) places.push_back({glm::vec4(s.position, 0), glm::vec4(s.normal, 0)});
+  return places;
+}
+
 }  // namespace
 
 QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t columns,
@@ -23,6 +30,7 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
       starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t)),
       next_values_("Q next values (cells)", cells_.count() * sizeof(float)),
       touched_("touched cells", sizeof(gpu::TouchedHead) + 2 * cells_.count() * sizeof(std::uint32_t)),
+      places_("places of cells", pack_places(cells_.states())),
       initialize_("initial_table.comp", defines),
       learn_("learn.comp", defines) {}
 
@@ -43,8 +51,9 @@ void QTable::learn() {
 }
 
 void QTable::reset() {
-  for (gpu::Buffer* buffer : {&visits_, &sums_}) buffer->clear();
+  sums_.clear();
   bind();
+  places_.bind_storage(gpu::BINDING_CELL_PLACES);
   initialize_.dispatch(groups_of(cells_.count()));
   touch_all();
   learn();
@@ -65,7 +74,8 @@ void QTable::forget_touched() {
 
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
-         starts_.bytes() + next_values_.bytes() + touched_.bytes();
+         starts_.bytes() + next_values_.bytes() + touched_.bytes() +
+         places_.bytes();
 }
 
 std::vector<float> QTable::values() const { return values_.read_all<float>(); }

@@ -48,6 +48,7 @@ class QTable {
   gpu::Buffer starts_;
   gpu::Buffer next_values_;
   gpu::Buffer touched_;
+  gpu::Buffer places_;
   gpu::Program initialize_;
   gpu::Program learn_;
 };

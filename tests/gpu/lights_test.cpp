@@ -70,6 +70,7 @@ class LightChoices : public LearningStage {
     settings_.nee = Nee::one_ray;
     settings_.lights = choice;
     settings_.sampler = sampler;
+    settings_.light_prior = 0;
     if (choice == LightChoice::learned || sampler == Sampler::rl) {
       build();
     }
@@ -136,6 +137,43 @@ TEST_F(LightChoices, Learned) {
   }
 }
 
+// Before anything is learned: small lights straight above by the inverse square of their distance, and what faces
+// away hardly at all. The guess counts as so many visits.
+TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(10))};
+  add_quad(scene, {-10, 0, 0}, {0, 0, 20}, {20, 0, 0}, 0);  // its one site stands at (-10 + 20 v, 0, 20 u)
+  const CellSites sites = place_sites(scene, RlSettings{.sites_per_object = 1});
+  const glm::vec3 corner = sites.sites[0].position - glm::vec3(0.05F, 0, 0.05F);
+  const auto add_light = [&](float height, bool faces_down) {
+    const glm::vec3 u(0.1F, 0, 0);
+    const glm::vec3 v(0, 0, 0.1F);
+    add_quad(scene, corner + glm::vec3(0, height, 0), faces_down ? u : v, faces_down ? v : u, 1);
+  };
+  add_light(2, true);
+  add_light(4, true);
+  add_light(2.001F, false);
+  scene.camera = look_at({0, 1, 0}, {0, 0, 1}, 1);
+  RenderSettings settings;
+  settings.width = settings.height = 16;
+  settings.sampler = Sampler::bsdf;
+  settings.nee = Nee::one_ray;
+  settings.lights = LightChoice::learned;
+  settings.light_prior = 3;
+  settings.rl.sites_per_object = 1;
+  Tracer tracer(device(), scene, settings);
+  const std::vector<CellState>& states = tracer.table()->cells().states();
+  const std::vector<float> values = tracer.table()->values();
+  const std::vector<std::uint32_t> visits = tracer.table()->visits();
+  ASSERT_GT(states[0].normal.y, 0.99F);  // the floor's front
+  const double near = 0.5 / 3.141592653589793 * 0.01 / (4 + 0.01);
+  const double far = 0.5 / 3.141592653589793 * 0.01 / (16 + 0.01);
+  EXPECT_NEAR(values[0] / (near * near), 1, 1e-3);
+  EXPECT_NEAR(values[1] / (far * far), 1, 1e-3);
+  EXPECT_NEAR(values[2] / (near * near), 0.01, 1e-3);
+  EXPECT_EQ(visits[0], 3U);
+}
+
 // A light below the floor teaches the cells above that it brings nothing; the one above, the mean square of what it
 // brings: at the floor's middle radiance x albedo x form factor, if the light is small.
 TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
@@ -151,6 +189,7 @@ TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   settings.nee = Nee::one_ray;
   settings.lights = LightChoice::learned;
   settings.rl.sites_per_object = 1;
+  settings.light_prior = 0;
   Tracer tracer(device(), scene, settings);
   render(tracer, 8);
   const std::vector<float> values = tracer.table()->values();
