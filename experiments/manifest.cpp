@@ -33,8 +33,10 @@ Json scene_json(const LoadedScene& scene) {
 
 Json metrics_json() {
   Json metrics = Json::array();
-  for (const MetricDefinition& metric : metric_definitions()) {
-    metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+  for (const auto& definitions : {metric_definitions(), run_metric_definitions()}) {
+    for (const MetricDefinition& metric : definitions) {
+      metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+    }
   }
   return metrics;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/gpu/timer.h"
 #include "engine/tracer/tracer.h"
+#include "experiments/fireflies.h"
 #include "experiments/hash.h"
 #include "experiments/manifest.h"
 #include "experiments/run_files.h"
@@ -39,6 +40,7 @@ class Execution {
     manifest_["device_bytes"] = tracer.device_bytes();
     for (const std::string& warning : tracer.warnings()) warn(warning, progress);
     files_.write_first_hit(tracer.first_hit());
+    tracer.set_firefly_thresholds(firefly_thresholds(reference->image, config().firefly_multiple));
     render(tracer, *reference, progress);
   }
 
@@ -112,6 +114,9 @@ class Execution {
       progress.step(frame, relmse);
     }
     note_non_finite(tracer, progress);
+    const Outliers outliers = tracer.outliers();
+    record_.fireflies = firefly_record(outliers, tracer.radiance());
+    manifest_["brightest_fireflies"] = brightest_fireflies(outliers, reference.image);
   }
 
   void measure_frame(int frame, Tracer& tracer, gpu::Timer& timer) {
@@ -139,6 +144,8 @@ class Execution {
     next.gpu_elapsed_s = record_.gpu_elapsed_s();
     next.errors = compare_images(image, reference.image);
     next.non_finite = record_.totals().non_finite;
+    next.clamped_samples = record_.totals().clamped_samples;
+    next.clamp_bias = clamp_bias(tracer.outliers(), image);
     record_.snapshots.push_back(next);
     files_.write_snapshot(frame, image);
     files_.write_tables(record_);

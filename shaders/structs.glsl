@@ -90,6 +90,16 @@ struct PixelSum {
   double b_squared;
 };
 
+// What went beyond a pixel's limits, over all frames. Brightness is the mean over channels, before clamping.
+struct PixelOutliers {
+  double firefly_sum;   // brightness of all fireflies
+  double clamped_away;  // brightness that clamping has removed
+  float threshold;      // a sample brighter than this is a firefly
+  float brightest;      // firefly
+  uint brightest_frame;
+  uint fireflies;
+};
+
 struct FirstHit {
   vec4 normal;
   vec4 position;
@@ -105,6 +115,7 @@ struct Parameters {
   vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light
   vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value
+  vec4 film;            // x: clamp_radiance, 0 where nothing is clamped
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
   vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
@@ -131,6 +142,7 @@ const int BINDING_STATISTICS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
 const int BINDING_LIGHTS = 16;
 const int BINDING_TOUCHED_CELLS = 17;
+const int BINDING_OUTLIERS = 18;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -168,10 +180,12 @@ const uint STATISTIC_FALLBACKS = 4u;
 const uint STATISTIC_UPDATES = 5u;
 const uint STATISTIC_SATURATED = 6u;
 const uint STATISTIC_NON_FINITE = 7u;
-const uint STATISTIC_PER_FRAME = 8u;
-const uint STATISTIC_ALL_NON_FINITE = 8u;
-const uint STATISTIC_LOOPS_CUT = 9u;
-const uint STATISTIC_COUNT = 10u;
+const uint STATISTIC_FIREFLIES = 8u;
+const uint STATISTIC_CLAMPED = 9u;
+const uint STATISTIC_PER_FRAME = 10u;
+const uint STATISTIC_ALL_NON_FINITE = 10u;
+const uint STATISTIC_LOOPS_CUT = 11u;
+const uint STATISTIC_COUNT = 12u;
 const uint MAX_LOCATIONS = 64u;
 
 struct Statistics {

@@ -89,6 +89,12 @@ Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
+void Tracer::set_firefly_thresholds(std::span<const float> thresholds) {
+  check(state_->frames == 0, "firefly thresholds must be set before the first frame, not after {}",
+        state_->frames);
+  state_->film.set_firefly_thresholds(thresholds);
+}
+
 void Tracer::render_frame() {
   State& s = *state_;
   ++s.frames;
@@ -106,6 +112,8 @@ std::uint32_t Tracer::frames() const { return state_->frames; }
 FrameStatistics Tracer::last_frame_statistics() const { return state_->film.statistics(); }
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
+
+Outliers Tracer::outliers() const { return state_->film.outliers(); }
 
 RadianceImage Tracer::radiance() const { return state_->film.radiance(state_->frames); }
 
