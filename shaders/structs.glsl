@@ -104,6 +104,20 @@ struct FirstHit {
   vec4 normal;
   vec4 position;
   vec4 albedo;
+  vec4 emission;
+};
+
+// What the a-trous filter knows of a pixel besides its radiance.
+struct FilterGuide {
+  vec4 normal;
+  vec4 position;  // about the centre of the visible points, in units of their spread
+  vec4 divided;   // rgb: 1 where the channel was divided by the albedo, else 0
+};
+
+// Constants of one of its passes (a uniform block).
+struct FilterPass {
+  uvec4 image;   // x: width, y: height, z: pixels from tap to tap
+  vec4 falloff;  // 1 / sigma^2 of x: radiance in this pass, y: normal, z: position
 };
 
 // Constants of a run (a uniform block).
@@ -143,6 +157,9 @@ const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writ
 const int BINDING_LIGHTS = 16;
 const int BINDING_TOUCHED_CELLS = 17;
 const int BINDING_OUTLIERS = 18;
+const int BINDING_FILTER_GUIDES = 19;
+const int BINDING_FILTER_SOURCE = 20;
+const int BINDING_FILTER_RESULT = 21;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 

@@ -17,9 +17,9 @@ struct EnumNames<FilterKind> {
 struct FilterSettings {
   FilterKind kind = FilterKind::none;
   int iterations = 5;
-  double sigma_radiance = 4;
+  double sigma_radiance = 32;
   double sigma_normal = 0.3;
-  double sigma_position = 0.3;
+  double sigma_position = 0.15;
 
   bool operator==(const FilterSettings&) const = default;
 };

@@ -129,11 +129,12 @@ FirstHitImage Tracer::first_hit() const {
   program.dispatch(x, y);
   s.context.finish();
   s.film.check_loops();
-  FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}};
+  FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}, {}};
   for (const gpu::FirstHit& hit : output.read_all<gpu::FirstHit>()) {
     image.normal.emplace_back(hit.normal);
     image.position.emplace_back(hit.position);
     image.albedo.emplace_back(hit.albedo);
+    image.emission.emplace_back(hit.emission);
   }
   return image;
 }
