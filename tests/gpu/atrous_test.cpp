@@ -288,10 +288,12 @@ TEST(Atrous, UnitsOfLengthAndLightDoNotMatter) {
   FirstHitImage hits = wall(24, 16);
   RadianceImage image = constant(hits, glm::dvec3(0));
   make_random(hits, image, random);
-  const RadianceImage before = filtered(hits, image);
+  FilterSettings settings;
+  settings.sigma_position = 1;
+  const RadianceImage before = filtered(hits, image, settings);
   for (glm::vec3& position : hits.position) position *= 1024.0F;
   for (glm::dvec3& pixel : image.mean) pixel *= 1e6;
-  const RadianceImage after = filtered(hits, image);
+  const RadianceImage after = filtered(hits, image, settings);
   for (std::size_t i = 0; i < image.mean.size(); ++i) {
     if (!std::isnan(image.mean[i].y)) expect_near(after.mean[i], before.mean[i] * 1e6, 1e-5);
   }
