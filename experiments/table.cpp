@@ -94,6 +94,12 @@ std::string notes(const Experiment& experiment) {
       "firefly_multiple times their pixel's reference. Non-finite: samples. At floor: seeds "
       "whose error is within {} times the reference's own noise.\n",
       seeds ? " ± 95 % confidence (Student's t)" : "", kReferenceFloor);
+  if (std::ranges::any_of(experiment.runs,
+                          [](const Run& run) { return run.config.filter.kind != FilterKind::none; })) {
+    text +=
+        "\nRows marked à-trous: the images of the row above after the filter, which is biased. Its time is "
+        "filter_ms in summary.csv and in no other time.\n";
+  }
   if (!experiment.published.source.empty()) text += "\nPublished: " + experiment.published.source + "\n";
   if (!experiment.published.note.empty()) text += "\n" + experiment.published.note + "\n";
   return text;

@@ -189,6 +189,7 @@ TEST_F(RunProgram, FilteredImagesAreMeasuredOnTheirOwn) {
   EXPECT_NE(image.channels.at("filtered.R"), image.channels.at("R"));
   EXPECT_EQ(image.channels.at("R"), read_exr(folder_ / (plain + "frame_000004.exr")).channels.at("R"));
   EXPECT_TRUE(contains(outcome.out, "atrous, à-trous (biased)"));
+  EXPECT_TRUE(contains(outcome.out, "Its time is filter_ms in summary.csv"));
 }
 
 TEST_F(RunProgram, FirefliesAndClampingAreFiguresOfARun) {
