@@ -23,17 +23,22 @@ Cell make_cell(const Members& members) {
   cell.scene = first.scene;
   cell.labels = first.run.labels;
   cell.frames = first.run.config.frames;
+  cell.clamp_radiance = first.run.config.render.clamp_radiance;
   cell.runs = members.size();
   Members finished;
-  std::vector<double> relmse, elapsed, inefficiency;
+  std::vector<double> relmse, elapsed, inefficiency, filtered, fireflies, bias;
   for (const RunRecord* run : members) {
     cell.non_finite += run->totals().non_finite;
+    cell.clamped_samples += run->totals().clamped_samples;
     const ErrorMetrics* errors = run->final_errors();
     if (errors == nullptr) continue;
     finished.push_back(run);
     relmse.push_back(errors->relmse);
     elapsed.push_back(run->elapsed_s());
     inefficiency.push_back(*run->relmse_x_seconds());
+    if (const FilteredRecord* record = run->final_filtered()) filtered.push_back(record->errors.relmse);
+    if (const auto rate = run->fireflies_per_million()) fireflies.push_back(*rate);
+    bias.push_back(run->last_snapshot()->clamp_bias);
     if (errors->at_reference_floor()) ++cell.at_reference_floor;
   }
   cell.finished = finished.size();
@@ -42,6 +47,9 @@ Cell make_cell(const Members& members) {
   cell.relmse = estimate(relmse);
   cell.elapsed_s = estimate(elapsed);
   cell.relmse_x_s = estimate(inefficiency);
+  cell.relmse_filtered = estimate(filtered);
+  cell.fireflies_per_million = estimate(fireflies);
+  cell.clamp_bias = estimate(bias);
   return cell;
 }
 

@@ -23,6 +23,7 @@ struct Cell {
   std::string scene;
   std::vector<std::string> labels;  // one per axis, of the first run
   int frames = 0;
+  double clamp_radiance = 0;  // 0: nothing was clamped
   std::size_t runs = 0;
   std::size_t finished = 0;
   std::optional<FrameTimes> host_ms;
@@ -30,6 +31,10 @@ struct Cell {
   std::optional<Estimate> relmse;
   std::optional<Estimate> elapsed_s;
   std::optional<Estimate> relmse_x_s;
+  std::optional<Estimate> relmse_filtered;  // empty where nothing was filtered
+  std::optional<Estimate> fireflies_per_million;
+  std::optional<Estimate> clamp_bias;
+  std::uint64_t clamped_samples = 0;
   std::uint64_t non_finite = 0;
   std::size_t at_reference_floor = 0;  // seeds
 };

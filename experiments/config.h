@@ -1,6 +1,7 @@
 // Everything that one run can be told: the tracer's settings and what is measured of them.
 #pragma once
 
+#include "engine/core/filter_settings.h"
 #include "engine/core/settings.h"
 #include "experiments/json_knobs.h"
 
@@ -53,6 +54,8 @@ struct RunConfig {
   int warmup_frames = 1;
   SnapshotPlan snapshots;
   ReferenceSettings reference;
+  double firefly_multiple = 100;
+  FilterSettings filter;
 };
 
 template <class Visitor>
@@ -69,6 +72,15 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
         config.snapshots);
   visit(KnobInfo{"reference", "", "the long render without learning that errors are measured against"},
         config.reference);
+  visit(
+      KnobInfo{
+          "firefly_multiple", "",
+          "a sample brighter than this many times its pixel's reference (at least 1 % of the mean of the "
+          "reference image) counts as a firefly",
+          1, 1e9},
+      config.firefly_multiple);
+  visit(KnobInfo{"filter", "", "an edge-avoiding filter of the snapshots, measured on its own: it is biased"},
+        config.filter);
 }
 
 // Throws Error that names the key where values that are each allowed do not fit together.

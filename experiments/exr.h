@@ -29,7 +29,10 @@ ExrImage read_exr(const std::filesystem::path& file);
 // R, G, B: the mean; variance.R, .G, .B: its variance; metadata "spp".
 ExrImage to_exr(const RadianceImage& image, ExrMetadata metadata);
 
-// normal.X, .Y, .Z, position.X, .Y, .Z and albedo.R, .G, .B.
+// Adds filtered.R, .G, .B: the same image after a filter.
+void add_filtered(ExrImage& exr, const RadianceImage& filtered);
+
+// normal.X, .Y, .Z, position.X, .Y, .Z, albedo.R, .G, .B and emission.R, .G, .B.
 ExrImage to_exr(const FirstHitImage& image, ExrMetadata metadata);
 
 // The opposite of to_exr. Without variance channels the variance is zero and `samples` 0, i. e. unknown;

@@ -13,6 +13,8 @@ constexpr std::array<const char*, 3> kVariance{"variance.R", "variance.G", "vari
 constexpr std::array<const char*, 3> kNormal{"normal.X", "normal.Y", "normal.Z"};
 constexpr std::array<const char*, 3> kPosition{"position.X", "position.Y", "position.Z"};
 constexpr std::array<const char*, 3> kAlbedo{"albedo.R", "albedo.G", "albedo.B"};
+constexpr std::array<const char*, 3> kEmission{"emission.R", "emission.G", "emission.B"};
+constexpr std::array<const char*, 3> kFiltered{"filtered.R", "filtered.G", "filtered.B"};
 
 template <class Vector>
 void add_planes(ExrImage& exr, const std::array<const char*, 3>& names, const std::vector<Vector>& pixels) {
@@ -64,8 +66,11 @@ ExrImage to_exr(const FirstHitImage& image, ExrMetadata metadata) {
   add_planes(exr, kNormal, image.normal);
   add_planes(exr, kPosition, image.position);
   add_planes(exr, kAlbedo, image.albedo);
+  add_planes(exr, kEmission, image.emission);
   return exr;
 }
+
+void add_filtered(ExrImage& exr, const RadianceImage& filtered) { add_planes(exr, kFiltered, filtered.mean); }
 
 RadianceImage to_radiance(const ExrImage& exr, const std::filesystem::path& file) {
   check(has_planes(exr, kMean), "{}: has no channels R, G, B", file.string());

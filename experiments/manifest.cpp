@@ -33,8 +33,10 @@ Json scene_json(const LoadedScene& scene) {
 
 Json metrics_json() {
   Json metrics = Json::array();
-  for (const MetricDefinition& metric : metric_definitions()) {
-    metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+  for (const auto& definitions : {metric_definitions(), run_metric_definitions()}) {
+    for (const MetricDefinition& metric : definitions) {
+      metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+    }
   }
   return metrics;
 }
@@ -42,7 +44,8 @@ Json metrics_json() {
 std::string timing_note() {
   return "Times hold tracing and, for RL, all learning of each frame; building structures, compiling "
          "shaders, "
-         "readback, metrics and files are outside. host: host clock around a frame until its work is done; "
+         "readback, filtering, metrics and files are outside. host: host clock around a frame until its work "
+         "is done; "
          "gpu: "
          "GL timestamps around the same. Warm-up frames are in totals and not in medians and percentiles.";
 }

@@ -113,4 +113,22 @@ std::vector<MetricDefinition> metric_definitions() {
   };
 }
 
+std::vector<MetricDefinition> run_metric_definitions() {
+  const std::string project = "this project";
+  return {
+      {"fireflies",
+       fmt::format("samples whose mean over channels exceeds firefly_multiple * max(mean over channels of r, "
+                   "{} of the same averaged over all pixels), before clamping",
+                   kFireflyFloor),
+       project},
+      {"firefly_energy_fraction", "radiance of all fireflies / radiance of all samples, before clamping",
+       project},
+      {"clamp_bias",
+       "mean over pixels and channels of the image minus what it would be without clamp_radiance", project},
+      {"filtered_*", "the same errors of the image after the filter, which is biased",
+       "Dammertz, Sewtz, Hanika, Lensch 2010, Edge-avoiding a-trous wavelet transform for fast global "
+       "illumination filtering"},
+  };
+}
+
 }  // namespace qtrace::experiments

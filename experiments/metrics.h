@@ -13,6 +13,7 @@ namespace qtrace::experiments {
 
 constexpr double kEpsilon = 0.01;        // keeps relative errors of dark pixels finite; radiance (squared)
 constexpr double kTrimmedShare = 0.001;  // of the pixels, rounded up, at most all but one
+constexpr double kFireflyFloor = 0.01;   // of the reference image's mean: darker pixels are taken for it
 constexpr double kReferenceFloor = 3.0;  // an error below this times the reference's noise is flagged
 
 // The variance of the reference's own mean, in the norms of mse and relmse.
@@ -47,5 +48,7 @@ struct MetricDefinition {
   std::string source;
 };
 std::vector<MetricDefinition> metric_definitions();
+// Of figures that only runs have: of fireflies, clamping and filtering.
+std::vector<MetricDefinition> run_metric_definitions();
 
 }  // namespace qtrace::experiments

@@ -15,34 +15,59 @@ CsvValue ratio(std::uint64_t part, std::uint64_t whole) {
 const ErrorMetrics* errors_of(const SnapshotRecord& row) { return &row.errors; }
 const ErrorMetrics* errors_of(const RunRecord& row) { return row.final_errors(); }
 
-template <class Row, class Get>
-Column<Row> error_column(const char* name, Get get) {
-  return {name, [get](const Row& row) {
-            const ErrorMetrics* errors = errors_of(row);
-            return errors == nullptr ? CsvValue() : get(*errors);
+// The filtered image of a row, or null where it has none.
+const FilteredRecord* filtered(const SnapshotRecord& row) { return row.filtered ? &*row.filtered : nullptr; }
+const FilteredRecord* filtered(const RunRecord& row) { return row.final_filtered(); }
+
+const auto kPlain = [](const auto& row) { return errors_of(row); };
+const auto kFiltered = [](const auto& row) {
+  const FilteredRecord* record = filtered(row);
+  return record == nullptr ? nullptr : &record->errors;
+};
+
+template <class Row, class Errors, class Get>
+Column<Row> error_column(const std::string& name, Errors errors, Get get) {
+  return {name, [errors, get](const Row& row) {
+            const ErrorMetrics* found = errors(row);
+            return found == nullptr ? CsvValue() : get(*found);
           }};
 }
 
-template <class Row>
-void add_error_columns(std::vector<Column<Row>>& columns) {
+// `prefix`: biased errors never stand in a column with unbiased ones.
+template <class Row, class Errors>
+void add_error_columns(std::vector<Column<Row>>& columns, const std::string& prefix, Errors errors) {
   using E = ErrorMetrics;
-  columns.insert(
-      columns.end(),
-      {
-          error_column<Row>("mse", [](const E& e) { return CsvValue(e.mse); }),
-          error_column<Row>("relmse", [](const E& e) { return CsvValue(e.relmse); }),
-          error_column<Row>("relmse_trimmed", [](const E& e) { return CsvValue(e.relmse_trimmed); }),
-          error_column<Row>("mape", [](const E& e) { return CsvValue(e.mape); }),
-          error_column<Row>("bias", [](const E& e) { return CsvValue(e.bias); }),
-          error_column<Row>("reference_mse",
-                            [](const E& e) { return e.reference ? CsvValue(e.reference->mse) : CsvValue(); }),
-          error_column<Row>(
-              "reference_relmse",
-              [](const E& e) { return e.reference ? CsvValue(e.reference->relmse) : CsvValue(); }),
-          error_column<Row>("at_reference_floor",
-                            [](const E& e) { return CsvValue(e.at_reference_floor()); }),
-          error_column<Row>("non_finite_pixels", [](const E& e) { return CsvValue(e.non_finite); }),
-      });
+  const auto column = [&](const char* name, auto get) {
+    columns.push_back(error_column<Row>(prefix + name, errors, get));
+  };
+  column("mse", [](const E& e) { return CsvValue(e.mse); });
+  column("relmse", [](const E& e) { return CsvValue(e.relmse); });
+  column("relmse_trimmed", [](const E& e) { return CsvValue(e.relmse_trimmed); });
+  column("mape", [](const E& e) { return CsvValue(e.mape); });
+  column("bias", [](const E& e) { return CsvValue(e.bias); });
+  column("at_reference_floor", [](const E& e) { return CsvValue(e.at_reference_floor()); });
+  column("non_finite_pixels", [](const E& e) { return CsvValue(e.non_finite); });
+}
+
+template <class Row>
+void add_reference_columns(std::vector<Column<Row>>& columns) {
+  using E = ErrorMetrics;
+  columns.push_back(error_column<Row>("reference_mse", kPlain, [](const E& e) {
+    return e.reference ? CsvValue(e.reference->mse) : CsvValue();
+  }));
+  columns.push_back(error_column<Row>("reference_relmse", kPlain, [](const E& e) {
+    return e.reference ? CsvValue(e.reference->relmse) : CsvValue();
+  }));
+}
+
+// The filtered image, its errors and what it cost.
+template <class Row>
+void add_filter_columns(std::vector<Column<Row>>& columns) {
+  add_error_columns(columns, "filtered_", kFiltered);
+  columns.push_back({"filter_ms", [](const Row& row) {
+                       const FilteredRecord* record = filtered(row);
+                       return record == nullptr ? CsvValue() : CsvValue(record->filter_ms);
+                     }});
 }
 
 // The counts that frames.csv has per frame and summary.csv as totals.
@@ -63,6 +88,8 @@ void add_statistics_columns(std::vector<Column<Row>>& columns, Get get) {
                      column("table_updates", [](const S& s) { return CsvValue(s.table_updates); }),
                      column("saturated_updates", [](const S& s) { return CsvValue(s.saturated_updates); }),
                      column("non_finite", [](const S& s) { return CsvValue(s.non_finite); }),
+                     column("fireflies", [](const S& s) { return CsvValue(s.fireflies); }),
+                     column("clamped_samples", [](const S& s) { return CsvValue(s.clamped_samples); }),
                  });
 }
 
@@ -82,45 +109,34 @@ void add_time_columns(std::vector<Column<RunRecord>>& columns, const std::string
                                  {clock + "_ms_iqr", iqr}});
 }
 
-std::vector<double> counted(const std::vector<FrameRecord>& frames, double FrameRecord::*time) {
-  std::vector<double> values;
-  for (const FrameRecord& frame : frames) {
-    if (!frame.is_warmup) values.push_back(frame.*time);
-  }
-  return values;
+void add_outlier_columns(std::vector<Column<RunRecord>>& columns) {
+  using R = RunRecord;
+  columns.insert(
+      columns.end(),
+      {
+          {"fireflies_per_million", [](const R& row) { return maybe(row.fireflies_per_million()); }},
+          {"firefly_energy_fraction", [](const R& row) { return maybe(row.fireflies.energy_fraction); }},
+          {"brightest_firefly", [](const R& row) { return maybe(row.fireflies.brightest); }},
+          {"clamp_bias",
+           [](const R& row) {
+             const SnapshotRecord* last = row.last_snapshot();
+             return last == nullptr ? CsvValue() : CsvValue(last->clamp_bias);
+           }},
+      });
+}
+
+// The moment that a row of convergence.csv and convergence_filtered.csv is about.
+std::vector<Column<SnapshotRecord>> moment_columns() {
+  using R = SnapshotRecord;
+  return {
+      {"frame", [](const R& row) { return CsvValue(std::int64_t{row.frame}); }},
+      {"spp", [](const R& row) { return CsvValue(std::int64_t{row.frame}); }},
+      {"elapsed_s", [](const R& row) { return CsvValue(row.elapsed_s); }},
+      {"gpu_elapsed_s", [](const R& row) { return CsvValue(row.gpu_elapsed_s); }},
+  };
 }
 
 }  // namespace
-
-std::vector<double> RunRecord::host_ms() const { return counted(frames, &FrameRecord::host_ms); }
-
-std::vector<double> RunRecord::gpu_ms() const { return counted(frames, &FrameRecord::gpu_ms); }
-
-FrameStatistics RunRecord::totals() const {
-  FrameStatistics total;
-  for (const FrameRecord& frame : frames) {
-    total.paths += frame.statistics.paths;
-    total.rays += frame.statistics.rays;
-    total.path_segments += frame.statistics.path_segments;
-    total.zero_paths += frame.statistics.zero_paths;
-    total.cell_lookups += frame.statistics.cell_lookups;
-    total.cell_fallbacks += frame.statistics.cell_fallbacks;
-    total.non_finite += frame.statistics.non_finite;
-    total.table_updates += frame.statistics.table_updates;
-    total.saturated_updates += frame.statistics.saturated_updates;
-  }
-  return total;
-}
-
-const ErrorMetrics* RunRecord::final_errors() const {
-  return status == "finished" && !snapshots.empty() ? &snapshots.back().errors : nullptr;
-}
-
-std::optional<double> RunRecord::relmse_x_seconds() const {
-  const ErrorMetrics* errors = final_errors();
-  if (errors == nullptr) return std::nullopt;
-  return errors->relmse * elapsed_s();
-}
 
 std::vector<Column<FrameRecord>> frame_columns() {
   using R = FrameRecord;
@@ -138,14 +154,19 @@ std::vector<Column<FrameRecord>> frame_columns() {
 
 std::vector<Column<SnapshotRecord>> snapshot_columns() {
   using R = SnapshotRecord;
-  std::vector<Column<R>> columns{
-      {"frame", [](const R& row) { return CsvValue(std::int64_t{row.frame}); }},
-      {"spp", [](const R& row) { return CsvValue(std::int64_t{row.frame}); }},
-      {"elapsed_s", [](const R& row) { return CsvValue(row.elapsed_s); }},
-      {"gpu_elapsed_s", [](const R& row) { return CsvValue(row.gpu_elapsed_s); }},
-  };
-  add_error_columns(columns);
+  std::vector<Column<R>> columns = moment_columns();
+  add_error_columns(columns, "", kPlain);
+  add_reference_columns(columns);
   columns.push_back({"non_finite", [](const R& row) { return CsvValue(row.non_finite); }});
+  columns.push_back({"clamped_samples", [](const R& row) { return CsvValue(row.clamped_samples); }});
+  columns.push_back({"clamp_bias", [](const R& row) { return CsvValue(row.clamp_bias); }});
+  return columns;
+}
+
+std::vector<Column<SnapshotRecord>> filtered_columns() {
+  std::vector<Column<SnapshotRecord>> columns = moment_columns();
+  add_filter_columns(columns);
+  add_reference_columns(columns);
   return columns;
 }
 
@@ -175,9 +196,12 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
                      {"elapsed_s", [](const R& row) { return CsvValue(row.elapsed_s()); }},
                      {"gpu_elapsed_s", [](const R& row) { return CsvValue(row.gpu_elapsed_s()); }},
                  });
-  add_error_columns(columns);
+  add_error_columns(columns, "", kPlain);
+  add_reference_columns(columns);
   columns.push_back({"relmse_x_s", [](const R& row) { return maybe(row.relmse_x_seconds()); }});
+  add_filter_columns(columns);
   add_statistics_columns(columns, [](const R& row) { return row.totals(); });
+  add_outlier_columns(columns);
   columns.push_back({"reference_hash", [](const R& row) { return CsvValue(row.reference_hash); }});
   columns.push_back({"config_hash", [](const R& row) { return CsvValue(row.config_hash); }});
   return columns;

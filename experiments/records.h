@@ -23,6 +23,12 @@ struct FrameRecord {
   FrameStatistics statistics;
 };
 
+// A filtered copy of a snapshot: biased, so its errors are never mixed with the others.
+struct FilteredRecord {
+  ErrorMetrics errors;
+  double filter_ms = 0;  // host clock: upload, passes and readback; in no time of a frame
+};
+
 // The running mean after a frame, against the reference.
 struct SnapshotRecord {
   int frame = 0;  // also the samples per pixel
@@ -30,6 +36,15 @@ struct SnapshotRecord {
   double gpu_elapsed_s = 0;
   ErrorMetrics errors;
   std::uint64_t non_finite = 0;  // samples so far
+  std::uint64_t clamped_samples = 0;
+  double clamp_bias = 0;  // what clamping added to the mean over pixels and channels: never positive
+  std::optional<FilteredRecord> filtered;
+};
+
+// The fireflies of a run; their number is among the statistics of its frames.
+struct FireflyRecord {
+  std::optional<double> energy_fraction;  // of all radiance summed; nothing for black images
+  std::optional<double> brightest;        // radiance
 };
 
 // One run; what it did not reach stays empty.
@@ -43,18 +58,23 @@ struct RunRecord {
   double setup_s = 0;  // acceleration, cells, shaders: before the first frame, not in elapsed_s
   std::vector<FrameRecord> frames;
   std::vector<SnapshotRecord> snapshots;
+  FireflyRecord fireflies;
 
   std::vector<double> host_ms() const;  // without warm-up frames
   std::vector<double> gpu_ms() const;
   double elapsed_s() const { return frames.empty() ? 0 : frames.back().elapsed_s; }
   double gpu_elapsed_s() const { return frames.empty() ? 0 : frames.back().gpu_elapsed_s; }
   FrameStatistics totals() const;
-  const ErrorMetrics* final_errors() const;        // null unless finished
-  std::optional<double> relmse_x_seconds() const;  // inefficiency: final relmse * elapsed_s
+  const SnapshotRecord* last_snapshot() const;          // null unless finished
+  const ErrorMetrics* final_errors() const;             // of it
+  const FilteredRecord* final_filtered() const;         // of it; null where nothing was filtered
+  std::optional<double> relmse_x_seconds() const;       // inefficiency: final relmse * elapsed_s
+  std::optional<double> fireflies_per_million() const;  // samples
 };
 
 std::vector<Column<FrameRecord>> frame_columns();
 std::vector<Column<SnapshotRecord>> snapshot_columns();
+std::vector<Column<SnapshotRecord>> filtered_columns();  // of convergence_filtered.csv
 std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes);
 
 }  // namespace qtrace::experiments

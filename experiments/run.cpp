@@ -1,7 +1,9 @@
 #include "experiments/run.h"
 
 #include "engine/gpu/timer.h"
+#include "engine/tracer/atrous.h"
 #include "engine/tracer/tracer.h"
+#include "experiments/fireflies.h"
 #include "experiments/hash.h"
 #include "experiments/manifest.h"
 #include "experiments/run_files.h"
@@ -38,7 +40,12 @@ class Execution {
     manifest_["cells"] = tracer.cells();
     manifest_["device_bytes"] = tracer.device_bytes();
     for (const std::string& warning : tracer.warnings()) warn(warning, progress);
-    files_.write_first_hit(tracer.first_hit());
+    const FirstHitImage first_hit = tracer.first_hit();
+    files_.write_first_hit(first_hit);
+    if (config().filter.kind == FilterKind::atrous) {
+      filter_.emplace(job_.context, first_hit, config().filter);
+    }
+    tracer.set_firefly_thresholds(firefly_thresholds(reference->image, config().firefly_multiple));
     render(tracer, *reference, progress);
   }
 
@@ -112,6 +119,9 @@ class Execution {
       progress.step(frame, relmse);
     }
     note_non_finite(tracer, progress);
+    const Outliers outliers = tracer.outliers();
+    record_.fireflies = firefly_record(outliers, tracer.radiance());
+    manifest_["brightest_fireflies"] = brightest_fireflies(outliers, reference.image);
   }
 
   void measure_frame(int frame, Tracer& tracer, gpu::Timer& timer) {
@@ -139,8 +149,17 @@ class Execution {
     next.gpu_elapsed_s = record_.gpu_elapsed_s();
     next.errors = compare_images(image, reference.image);
     next.non_finite = record_.totals().non_finite;
+    next.clamped_samples = record_.totals().clamped_samples;
+    next.clamp_bias = clamp_bias(tracer.outliers(), image);
+    std::optional<RadianceImage> filtered;
+    if (filter_) {
+      const auto start = Clock::now();
+      filtered = filter_->apply(image);
+      const double ms = seconds_since(start) * 1e3;
+      next.filtered = FilteredRecord{compare_images(*filtered, reference.image), ms};
+    }
     record_.snapshots.push_back(next);
-    files_.write_snapshot(frame, image);
+    files_.write_snapshot(frame, image, filtered ? &*filtered : nullptr);
     files_.write_tables(record_);
     return next.errors.relmse;
   }
@@ -167,6 +186,7 @@ class Execution {
   RunRecord& record_;
   RunFiles files_;
   Json manifest_;
+  std::optional<AtrousFilter> filter_;
   bool begun_ = false;
 };
 

@@ -14,13 +14,18 @@ void RunFiles::write_first_hit(const FirstHitImage& image) const {
   write_exr(folder_ / "first_hit.exr", to_exr(image, metadata_));
 }
 
-void RunFiles::write_snapshot(int frame, const RadianceImage& image) const {
-  write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), to_exr(image, metadata_));
+void RunFiles::write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const {
+  ExrImage exr = to_exr(image, metadata_);
+  if (filtered != nullptr) add_filtered(exr, *filtered);
+  write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), exr);
 }
 
 void RunFiles::write_tables(const RunRecord& record) const {
   write_file(folder_ / "frames.csv", csv_text(frame_columns(), record.frames));
   write_file(folder_ / "convergence.csv", csv_text(snapshot_columns(), record.snapshots));
+  if (record.run.config.filter.kind != FilterKind::none) {
+    write_file(folder_ / "convergence_filtered.csv", csv_text(filtered_columns(), record.snapshots));
+  }
 }
 
 void RunFiles::write_manifest(const Json& manifest) const { write_json(folder_ / "manifest.json", manifest); }

@@ -14,10 +14,12 @@ class RunFiles {
   // Makes the folder. `metadata` goes into every image.
   RunFiles(std::filesystem::path folder, ExrMetadata metadata);
 
-  void write_first_hit(const FirstHitImage& image) const;            // first_hit.exr
-  void write_snapshot(int frame, const RadianceImage& image) const;  // frame_000064.exr
-  void write_tables(const RunRecord& record) const;                  // frames.csv and convergence.csv
-  void write_manifest(const Json& manifest) const;                   // manifest.json
+  void write_first_hit(const FirstHitImage& image) const;  // first_hit.exr
+  // frame_000064.exr; `filtered` may be null.
+  void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const;
+  // frames.csv, convergence.csv and, of a run with a filter, convergence_filtered.csv.
+  void write_tables(const RunRecord& record) const;
+  void write_manifest(const Json& manifest) const;  // manifest.json
 
  private:
   std::filesystem::path folder_;

@@ -1,77 +1,12 @@
 #include "experiments/table.h"
 
-#include "experiments/cells.h"
+#include "experiments/cell_table.h"
 #include "experiments/manifest.h"
-#include "experiments/text_table.h"
 
 #include <algorithm>
 
 namespace qtrace::experiments {
 namespace {
-
-constexpr const char* kNothing = "-";
-
-// Three digits, but never fewer than stand before the point.
-std::string three_digits(double value) {
-  return value >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
-
-std::string times_text(const std::optional<FrameTimes>& times) {
-  if (!times) return kNothing;
-  return fmt::format("{} [{}, {}]", three_digits(times->median), three_digits(times->p10),
-                     three_digits(times->p90));
-}
-
-std::string estimate_text(const std::optional<Estimate>& value) {
-  if (!value) return kNothing;
-  return value->half_width ? fmt::format("{:.3g} ± {:.2g}", value->mean, *value->half_width)
-                           : fmt::format("{:.3g}", value->mean);
-}
-
-std::string fraction_text(std::size_t part, std::size_t whole) {
-  return part == whole ? std::to_string(whole) : fmt::format("{}/{}", part, whole);
-}
-
-// Axes that tell the rows of one scene's table apart.
-std::vector<std::size_t> row_axes(const Experiment& experiment) {
-  std::vector<std::size_t> axes;
-  for (std::size_t i = 0; i < experiment.axes.size(); ++i) {
-    if (!experiment.axes[i].is_seed && experiment.axes[i].name != "scene") axes.push_back(i);
-  }
-  return axes;
-}
-
-std::string scene_table(const Experiment& experiment, const std::vector<const Cell*>& cells) {
-  const std::vector<std::size_t> axes = row_axes(experiment);
-  const bool published = !experiment.published.ms_per_frame.by_cell.empty();
-  std::vector<std::string> header;
-  for (const std::size_t axis : axes) header.push_back(experiment.axes[axis].name);
-  header.insert(header.end(), {"frames", "seeds", "host ms/frame", "GPU ms/frame"});
-  if (published) header.emplace_back("published ms");
-  header.insert(header.end(), {"relMSE", "s", "relMSE × s", "non-finite", "at floor"});
-  std::vector<std::vector<std::string>> rows;
-  for (const Cell* cell : cells) {
-    std::vector<std::string> row;
-    for (const std::size_t axis : axes) row.push_back(cell->labels[axis]);
-    row.push_back(std::to_string(cell->frames));
-    row.push_back(fraction_text(cell->finished, cell->runs));
-    row.push_back(times_text(cell->host_ms));
-    row.push_back(times_text(cell->gpu_ms));
-    if (published) {
-      const double* ms = experiment.published.ms_per_frame.find(cell->name);
-      row.push_back(ms == nullptr ? kNothing : fmt::format("{:g}", *ms));
-    }
-    row.push_back(estimate_text(cell->relmse));
-    row.push_back(cell->elapsed_s ? three_digits(cell->elapsed_s->mean) : kNothing);
-    row.push_back(estimate_text(cell->relmse_x_s));
-    row.push_back(std::to_string(cell->non_finite));
-    row.push_back(cell->at_reference_floor == 0
-                      ? "no"
-                      : fmt::format("{} of {}", cell->at_reference_floor, cell->finished));
-    rows.push_back(std::move(row));
-  }
-  return markdown_table(header, rows, axes.size());
-}
 
 // The cell that differs from `cell` in one label alone: `from` there, `to` here.
 const Cell* counterpart(const Cell& cell, const std::vector<const Cell*>& cells, const std::string& from,
@@ -112,6 +47,17 @@ std::string ratio_lines(const Experiment& experiment, const std::vector<const Ce
   return lines.empty() ? lines : '\n' + lines;
 }
 
+std::string clamping_lines(const std::vector<const Cell*>& cells) {
+  std::string lines;
+  for (const Cell* cell : cells) {
+    if (cell->clamp_radiance == 0) continue;
+    lines += fmt::format(
+        "- {}: clamped (biased): clamp_radiance {:g} scaled down {} samples and changed the mean by {}\n",
+        cell->name, cell->clamp_radiance, cell->clamped_samples, estimate_text(cell->clamp_bias));
+  }
+  return lines.empty() ? lines : '\n' + lines;
+}
+
 std::string reference_lines(const std::map<std::string, Reference>& references) {
   if (references.empty()) return "";
   std::string lines = "\nReferences:\n";
@@ -144,9 +90,16 @@ std::string notes(const Experiment& experiment) {
                                  [](const Axis& axis) { return axis.is_seed; });
   text += fmt::format(
       "ms/frame: median [10th, 90th percentile] over the frames of all seeds. relMSE, s (host time of all "
-      "frames) and their product: at the last frame, mean over seeds{}. Non-finite: samples. At floor: seeds "
+      "frames) and their product: at the last frame, mean over seeds{}. Fireflies: samples brighter than "
+      "firefly_multiple times their pixel's reference. Non-finite: samples. At floor: seeds "
       "whose error is within {} times the reference's own noise.\n",
       seeds ? " ± 95 % confidence (Student's t)" : "", kReferenceFloor);
+  if (std::ranges::any_of(experiment.runs,
+                          [](const Run& run) { return run.config.filter.kind != FilterKind::none; })) {
+    text +=
+        "\nRows marked à-trous: the images of the row above after the filter, which is biased. Its time is "
+        "filter_ms in summary.csv and in no other time.\n";
+  }
   if (!experiment.published.source.empty()) text += "\nPublished: " + experiment.published.source + "\n";
   if (!experiment.published.note.empty()) text += "\n" + experiment.published.note + "\n";
   return text;
@@ -166,7 +119,8 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
   }
   std::string text = fmt::format("# {}\n\nDevice: {}\n", experiment.name, device);
   for (const auto& [scene, rows] : scenes) {
-    text += fmt::format("\n## {}\n\n", scene) + scene_table(experiment, rows) + ratio_lines(experiment, rows);
+    text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
+            clamping_lines(rows);
   }
   return text + failure_lines(records) + reference_lines(references) + notes(experiment);
 }

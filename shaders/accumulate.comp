@@ -6,6 +6,7 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_SAMPLES) restrict readonly buffer SampleBuffer { PixelSample samples[]; };
 layout(std430, binding = BINDING_SUMS) restrict buffer SumBuffer { PixelSum sums[]; };
+layout(std430, binding = BINDING_OUTLIERS) restrict buffer OutlierBuffer { PixelOutliers outliers[]; };
 
 shared uint group_counts[STATISTIC_PER_FRAME];
 
@@ -17,6 +18,29 @@ void add_sample(uint index, vec3 radiance) {
   sums[index].r_squared += x.r * x.r;
   sums[index].g_squared += x.g * x.g;
   sums[index].b_squared += x.b * x.b;
+}
+
+void judge_firefly(uint index, vec3 radiance) {
+  float brightness = average(radiance);
+  if (brightness <= outliers[index].threshold) return;
+  atomicAdd(group_counts[STATISTIC_FIREFLIES], 1u);
+  outliers[index].firefly_sum += double(brightness);
+  ++outliers[index].fireflies;
+  if (brightness <= outliers[index].brightest) return;
+  outliers[index].brightest = brightness;
+  outliers[index].brightest_frame = frame_number;
+}
+
+// The sample, scaled down where its largest channel exceeds clamp_radiance; hue is kept.
+vec3 clamped(uint index, vec3 radiance) {
+  float limit = parameters.film.x;
+  float largest = max_component(radiance);
+  if (limit == 0.0 || largest <= limit) return radiance;
+  vec3 kept = radiance / largest * limit;
+  dvec3 removed = dvec3(radiance) - dvec3(kept);
+  outliers[index].clamped_away += (removed.r + removed.g + removed.b) / 3.0;
+  atomicAdd(group_counts[STATISTIC_CLAMPED], 1u);
+  return kept;
 }
 
 void count_sample(uvec4 counts, bool is_zero) {
@@ -37,7 +61,10 @@ void main() {
   if (index < parameters.image.x * parameters.image.y) {
     vec3 radiance = samples[index].radiance.rgb;
     bool finite = is_finite(radiance.r) && is_finite(radiance.g) && is_finite(radiance.b);
-    if (finite) add_sample(index, radiance);
+    if (finite) {
+      judge_firefly(index, radiance);
+      add_sample(index, clamped(index, radiance));
+    }
     else report_non_finite(uvec2(index % parameters.image.x, index / parameters.image.x), frame_number);
     count_sample(samples[index].counts, radiance == vec3(0.0));
   }

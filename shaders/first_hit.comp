@@ -12,10 +12,11 @@ void main() {
   if (any(greaterThanEqual(pixel, parameters.image.xy))) return;
   vec3 direction = camera_direction(vec2(pixel) + 0.5);
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
-  FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0));
+  FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (hit.triangle != NO_TRIANGLE) {
     Surface s = surface_at(hit, direction);
-    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(materials[s.material].base_color.rgb, 1.0));
+    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(materials[s.material].base_color.rgb, 1.0),
+                     vec4(emitted_radiance(s), 1.0));
   }
   first_hits[pixel.y * parameters.image.x + pixel.x] = first;
   if (loop_was_cut) report_cut(pixel);

@@ -98,10 +98,34 @@ struct PixelSum {
   double b_squared;
 };
 
+// What went beyond a pixel's limits, over all frames. Brightness is the mean over channels, before clamping.
+struct PixelOutliers {
+  double firefly_sum;   // brightness of all fireflies
+  double clamped_away;  // brightness that clamping has removed
+  float threshold;      // a sample brighter than this is a firefly
+  float brightest;      // firefly
+  uint brightest_frame;
+  uint fireflies;
+};
+
 struct FirstHit {
   vec4 normal;
   vec4 position;
   vec4 albedo;
+  vec4 emission;
+};
+
+// What the a-trous filter knows of a pixel besides its radiance.
+struct FilterGuide {
+  vec4 normal;
+  vec4 position;  // about the centre of the visible points, in units of their spread
+  vec4 divided;   // rgb: 1 where the channel was divided by the albedo, else 0
+};
+
+// Constants of one of its passes (a uniform block).
+struct FilterPass {
+  uvec4 image;   // x: width, y: height, z: pixels from tap to tap
+  vec4 falloff;  // 1 / sigma^2 of x: radiance in this pass, y: normal, z: position
 };
 
 // Constants of a run (a uniform block).
@@ -113,6 +137,7 @@ struct Parameters {
   vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light
   vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value, w: light_prior
+  vec4 film;            // x: clamp_radiance, 0 where nothing is clamped
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
   vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
@@ -140,6 +165,10 @@ const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writ
 const int BINDING_LIGHTS = 16;
 const int BINDING_TOUCHED_CELLS = 17;
 const int BINDING_CELL_PLACES = 18;
+const int BINDING_OUTLIERS = 19;
+const int BINDING_FILTER_GUIDES = 20;
+const int BINDING_FILTER_SOURCE = 21;
+const int BINDING_FILTER_RESULT = 22;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -177,10 +206,12 @@ const uint STATISTIC_FALLBACKS = 4u;
 const uint STATISTIC_UPDATES = 5u;
 const uint STATISTIC_SATURATED = 6u;
 const uint STATISTIC_NON_FINITE = 7u;
-const uint STATISTIC_PER_FRAME = 8u;
-const uint STATISTIC_ALL_NON_FINITE = 8u;
-const uint STATISTIC_LOOPS_CUT = 9u;
-const uint STATISTIC_COUNT = 10u;
+const uint STATISTIC_FIREFLIES = 8u;
+const uint STATISTIC_CLAMPED = 9u;
+const uint STATISTIC_PER_FRAME = 10u;
+const uint STATISTIC_ALL_NON_FINITE = 10u;
+const uint STATISTIC_LOOPS_CUT = 11u;
+const uint STATISTIC_COUNT = 12u;
 const uint MAX_LOCATIONS = 64u;
 
 struct Statistics {

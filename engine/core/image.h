@@ -29,6 +29,7 @@ struct FirstHitImage {
   std::vector<glm::vec3> normal;    // unit shading normal, towards the camera
   std::vector<glm::vec3> position;  // world space
   std::vector<glm::vec3> albedo;    // base colour
+  std::vector<glm::vec3> emission;  // radiance that it emits towards the camera
 };
 
 }  // namespace qtrace

@@ -5,6 +5,7 @@
 #include "engine/tracer/tiles.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace qtrace {
@@ -45,12 +46,15 @@ Film::Film(int width, int height)
                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample)),
       sums_("pixel sums",
             static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
+      outliers_("pixel outliers", static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                                      sizeof(gpu::PixelOutliers)),
       statistics_("statistics", sizeof(gpu::Statistics)),
       accumulate_("accumulate.comp", {}) {}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
   sums_.bind_storage(gpu::BINDING_SUMS);
+  outliers_.bind_storage(gpu::BINDING_OUTLIERS);
   statistics_.bind_storage(gpu::BINDING_STATISTICS);
 }
 
@@ -68,6 +72,16 @@ void Film::reset() {
   samples_.clear();
   sums_.clear();
   statistics_.clear();
+  const auto pixels = outliers_.bytes() / sizeof(gpu::PixelOutliers);
+  set_firefly_thresholds(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
+}
+
+void Film::set_firefly_thresholds(std::span<const float> thresholds) {
+  std::vector<gpu::PixelOutliers> outliers;
+  for (const float threshold : thresholds) outliers.push_back({0, 0, threshold, 0, 0, 0});
+  check(outliers.size() * sizeof(gpu::PixelOutliers) == outliers_.bytes(),
+        "{} firefly thresholds were given for {}x{} pixels", thresholds.size(), width_, height_);
+  outliers_.write(0, outliers.data(), outliers_.bytes());
 }
 
 void Film::check_loops() const { check_loops_of(read_block(statistics_)); }
@@ -85,6 +99,8 @@ FrameStatistics Film::statistics() const {
   s.non_finite = counter(block, gpu::STATISTIC_NON_FINITE);
   s.table_updates = counter(block, gpu::STATISTIC_UPDATES);
   s.saturated_updates = counter(block, gpu::STATISTIC_SATURATED);
+  s.fireflies = counter(block, gpu::STATISTIC_FIREFLIES);
+  s.clamped_samples = counter(block, gpu::STATISTIC_CLAMPED);
   return s;
 }
 
@@ -98,6 +114,22 @@ std::vector<NonFiniteSample> Film::non_finite_samples() const {
   }
   std::ranges::sort(samples, {}, [](const NonFiniteSample& s) { return std::tuple(s.frame, s.y, s.x); });
   return samples;
+}
+
+Outliers Film::outliers() const {
+  Outliers result;
+  std::uint32_t pixel = 0;
+  const auto width = static_cast<std::uint32_t>(width_);
+  for (const gpu::PixelOutliers& p : outliers_.read_all<gpu::PixelOutliers>()) {
+    result.firefly_sum += p.firefly_sum;
+    result.clamped_away += p.clamped_away;
+    if (p.fireflies > 0) {
+      result.brightest.push_back({pixel % width, pixel / width, p.brightest_frame, p.brightest});
+    }
+    ++pixel;
+  }
+  std::ranges::sort(result.brightest, {}, [](const Firefly& f) { return std::tuple(-f.radiance, f.y, f.x); });
+  return result;
 }
 
 RadianceImage Film::radiance(std::uint32_t frames) const {

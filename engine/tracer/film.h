@@ -7,6 +7,7 @@
 #include "engine/tracer/statistics.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace qtrace {
@@ -20,19 +21,26 @@ class Film {
   void accumulate(std::uint32_t frame);  // adds the frame's samples; parameters must be bound
   void reset();                          // as at the start
 
+  // One per pixel, before the first frame; without them nothing is a firefly.
+  void set_firefly_thresholds(std::span<const float> thresholds);
+
   // These wait for enqueued work and throw Error where the driver cut a loop of a shader short.
   FrameStatistics statistics() const;
   std::vector<NonFiniteSample> non_finite_samples() const;  // ordered by frame, then position
+  Outliers outliers() const;
   RadianceImage radiance(std::uint32_t frames) const;
   void check_loops() const;
 
-  std::size_t bytes() const { return samples_.bytes() + sums_.bytes() + statistics_.bytes(); }
+  std::size_t bytes() const {
+    return samples_.bytes() + sums_.bytes() + outliers_.bytes() + statistics_.bytes();
+  }
 
  private:
   int width_;
   int height_;
   gpu::Buffer samples_;
   gpu::Buffer sums_;
+  gpu::Buffer outliers_;
   gpu::Buffer statistics_;
   gpu::Program accumulate_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace qtrace {
 
@@ -9,6 +10,21 @@ struct NonFiniteSample {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
   std::uint32_t frame = 0;  // from 1
+};
+
+// A pixel's brightest firefly. Brightness is the mean over channels, before clamping.
+struct Firefly {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t frame = 0;  // from 1
+  double radiance = 0;
+};
+
+// What went beyond the limits in all frames so far; sums over pixels and frames of the mean over channels.
+struct Outliers {
+  double firefly_sum = 0;
+  double clamped_away = 0;         // what clamp_radiance removed
+  std::vector<Firefly> brightest;  // one of each pixel that had any: by radiance, then by position
 };
 
 // Counts of one frame.
@@ -22,6 +38,8 @@ struct FrameStatistics {
   std::uint64_t non_finite = 0;         // samples with a NaN or an infinity
   std::uint64_t table_updates = 0;      // targets gathered for the Q-table
   std::uint64_t saturated_updates = 0;  // targets clamped to, or lost at, the fixed-point limit
+  std::uint64_t fireflies = 0;          // samples brighter than their pixel's threshold
+  std::uint64_t clamped_samples = 0;    // samples with a channel above clamp_radiance
 };
 
 }  // namespace qtrace

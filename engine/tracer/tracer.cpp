@@ -89,6 +89,12 @@ Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
+void Tracer::set_firefly_thresholds(std::span<const float> thresholds) {
+  check(state_->frames == 0, "firefly thresholds must be set before the first frame, not after {}",
+        state_->frames);
+  state_->film.set_firefly_thresholds(thresholds);
+}
+
 void Tracer::render_frame() {
   State& s = *state_;
   ++s.frames;
@@ -107,6 +113,8 @@ FrameStatistics Tracer::last_frame_statistics() const { return state_->film.stat
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
 
+Outliers Tracer::outliers() const { return state_->film.outliers(); }
+
 RadianceImage Tracer::radiance() const { return state_->film.radiance(state_->frames); }
 
 FirstHitImage Tracer::first_hit() const {
@@ -121,11 +129,12 @@ FirstHitImage Tracer::first_hit() const {
   program.dispatch(x, y);
   s.context.finish();
   s.film.check_loops();
-  FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}};
+  FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}, {}};
   for (const gpu::FirstHit& hit : output.read_all<gpu::FirstHit>()) {
     image.normal.emplace_back(hit.normal);
     image.position.emplace_back(hit.position);
     image.albedo.emplace_back(hit.albedo);
+    image.emission.emplace_back(hit.emission);
   }
   return image;
 }

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace qtrace {
@@ -23,6 +24,10 @@ class Tracer {
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
 
+  // What counts as a firefly: a sample whose mean over channels exceeds its pixel's threshold. One per pixel,
+  // before the first frame; without them nothing does.
+  void set_firefly_thresholds(std::span<const float> thresholds);
+
   // Enqueues one sample per pixel and, where there is a table, one update of it. Does not wait.
   void render_frame();
   std::uint32_t frames() const;
@@ -30,6 +35,7 @@ class Tracer {
   // The readers below wait for enqueued work.
   FrameStatistics last_frame_statistics() const;
   std::vector<NonFiniteSample> non_finite_samples() const;  // some of all frames so far, at most 64
+  Outliers outliers() const;                                // fireflies and clamping over all frames so far
   RadianceImage radiance() const;                           // mean and its variance over all frames
   FirstHitImage first_hit() const;
 

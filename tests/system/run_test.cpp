@@ -166,6 +166,66 @@ TEST_F(RunProgram, TheSameSeedGivesTheSameBitsAndEarlierResultsAreKept) {
   EXPECT_EQ(curve("twice"), curve("twice.1"));
 }
 
+TEST_F(RunProgram, FilteredImagesAreMeasuredOnTheirOwn) {
+  const Outcome outcome = run("soft", R"("sweep": [{"filter.kind": ["none", "atrous"]}], )");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string plain = "results/soft/filter.kind=none/";
+  const std::string soft = "results/soft/filter.kind=atrous/";
+  EXPECT_FALSE(std::filesystem::exists(folder_ / (plain + "convergence_filtered.csv")));
+  const auto curve = parse_csv(folder_.read(soft + "convergence.csv"));
+  const auto filtered = parse_csv(folder_.read(soft + "convergence_filtered.csv"));
+  ASSERT_EQ(filtered.size(), 3U);
+  EXPECT_FALSE(filtered[0].contains("relmse"));
+  EXPECT_FALSE(curve[0].contains("filtered_relmse"));
+  EXPECT_LT(std::stod(filtered[0].at("filtered_relmse")), std::stod(curve[0].at("relmse")));
+  EXPECT_GT(std::stod(filtered[0].at("filter_ms")), 0);
+  EXPECT_EQ(curve[2].at("relmse"), parse_csv(folder_.read(plain + "convergence.csv"))[2].at("relmse"));
+  const auto summary = parse_csv(folder_.read("results/soft/summary.csv"));
+  EXPECT_EQ(summary[0].at("filtered_relmse"), "");
+  EXPECT_EQ(summary[1].at("filtered_relmse"), filtered[2].at("filtered_relmse"));
+  EXPECT_FALSE(read_exr(folder_ / (plain + "frame_000004.exr")).channels.contains("filtered.R"));
+  const experiments::ExrImage image = read_exr(folder_ / (soft + "frame_000004.exr"));
+  EXPECT_TRUE(image.channels.contains("filtered.B"));
+  EXPECT_NE(image.channels.at("filtered.R"), image.channels.at("R"));
+  EXPECT_EQ(image.channels.at("R"), read_exr(folder_ / (plain + "frame_000004.exr")).channels.at("R"));
+  EXPECT_TRUE(contains(outcome.out, "atrous, à-trous (biased)"));
+  EXPECT_TRUE(contains(outcome.out, "Its time is filter_ms in summary.csv"));
+}
+
+TEST_F(RunProgram, FirefliesAndClampingAreFiguresOfARun) {
+  const Outcome outcome = run(
+      "sparks", R"("sampler": "uniform", "firefly_multiple": 2, "sweep": [{"clamp_radiance": [0, 0.25]}], )");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = parse_csv(folder_.read("results/sparks/summary.csv"));
+  const double fireflies = std::stod(summary[0].at("fireflies"));
+  EXPECT_GT(fireflies, 0);
+  EXPECT_NEAR(std::stod(summary[0].at("fireflies_per_million")), fireflies / 256 * 1e6, 1e-6);
+  EXPECT_GT(std::stod(summary[0].at("firefly_energy_fraction")), 0);
+  EXPECT_LE(std::stod(summary[0].at("firefly_energy_fraction")), 1);
+  EXPECT_EQ(summary[0].at("clamped_samples"), "0");
+  EXPECT_EQ(summary[0].at("clamp_bias"), "0");
+  // Judged before clamping: the same ones.
+  for (const char* column : {"fireflies", "brightest_firefly"}) {
+    EXPECT_EQ(summary[1].at(column), summary[0].at(column)) << column;
+  }
+  EXPECT_NE(summary[1].at("clamped_samples"), "0");
+  EXPECT_NEAR(std::stod(summary[1].at("bias")) - std::stod(summary[0].at("bias")),
+              std::stod(summary[1].at("clamp_bias")), 1e-9);
+  const auto curve = parse_csv(folder_.read("results/sparks/clamp_radiance=0.25/convergence.csv"));
+  EXPECT_EQ(curve[2].at("clamp_bias"), summary[1].at("clamp_bias"));
+  EXPECT_EQ(curve[2].at("clamped_samples"), summary[1].at("clamped_samples"));
+  EXPECT_TRUE(contains(outcome.out, "clamped (biased): clamp_radiance 0.25")) << outcome.out;
+
+  const Json list = json("results/sparks/clamp_radiance=0/manifest.json").at("brightest_fireflies");
+  ASSERT_GT(list.size(), 0U);
+  EXPECT_EQ(list[0].at("radiance").get<double>(), std::stod(summary[0].at("brightest_firefly")));
+  for (const Json& firefly : list) EXPECT_GT(firefly.at("multiple").get<double>(), 2);
+  const auto frames = parse_csv(folder_.read("results/sparks/clamp_radiance=0/frames.csv"));
+  double sum = 0;
+  for (const auto& frame : frames) sum += std::stod(frame.at("fireflies"));
+  EXPECT_EQ(sum, fireflies);
+}
+
 TEST_F(RunProgram, ReferencesAreFoundAgainAndBrokenOnesRenderedAnew) {
   ASSERT_TRUE(contains(run("ref", "").err, "reference of scene: 8 frames rendered"));
   std::string name;

@@ -37,6 +37,8 @@ TEST(Config, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(config.frames, 8);
   EXPECT_EQ(config.warmup_frames, 1);
   EXPECT_EQ(config.reference.frames, 1024);
+  EXPECT_EQ(config.filter, FilterSettings{});
+  EXPECT_EQ(config.filter.kind, FilterKind::none);
   EXPECT_EQ(experiment.runs[0].id, "run");
 }
 
@@ -44,6 +46,7 @@ TEST(Config, ReadsEveryKindOfValue) {
   const Experiment experiment = load(config_text(
       R"("environment": [0, 0.5, 1], "sampler": "uniform", "nee": "two_ray", "seed": 4294967295, "width": 6.4e1,
          "rl": {"update": "q_learning", "bsdf_fraction": 0.25}, "reference": {"seed": 7},
+         "filter": {"kind": "atrous", "iterations": 3}, "firefly_multiple": 50, "clamp_radiance": 2.5,
          "snapshots": [2, 5],  // a comment
          "rl.bins_phi": 4, )"));
   const RunConfig& config = experiment.runs[0].config;
@@ -56,6 +59,10 @@ TEST(Config, ReadsEveryKindOfValue) {
   EXPECT_EQ(config.render.rl.bsdf_fraction, 0.25);
   EXPECT_EQ(config.render.rl.bins_phi, 4);
   EXPECT_EQ(config.reference.seed, 7U);
+  EXPECT_EQ(config.filter.kind, FilterKind::atrous);
+  EXPECT_EQ(config.filter.iterations, 3);
+  EXPECT_EQ(config.firefly_multiple, 50);
+  EXPECT_EQ(config.render.clamp_radiance, 2.5);
   EXPECT_EQ(config.snapshots.resolve(8), (std::vector<int>{2, 5, 8}));
 }
 
@@ -118,6 +125,10 @@ const BadConfig kBadConfigs[] = {
     {"Null", config_text(R"("width": null, )"), "'width' is null"},
     {"UnknownSampler", config_text(R"("sampler": "bsfd", )"),
      "'sampler' is \"bsfd\" but must be one of bsdf, uniform, rl; did you mean 'bsdf'?"},
+    {"UnknownFilter", config_text(R"("filter": {"kind": "atros"}, )"),
+     "'filter.kind' is \"atros\" but must be one of none, atrous; did you mean 'atrous'?"},
+    {"FireflyMultipleBelowOne", config_text(R"("firefly_multiple": 0.5, )"),
+     "'firefly_multiple' is 0.5 but must be a number from 1 to 1000000000"},
     {"SamplerOfOtherType", config_text(R"("sampler": 1, )"), "must be one of bsdf, uniform, rl"},
     {"TwoChannels", config_text(R"("environment": [1, 2], )"),
      "'environment' is [1,2] but must be a list of 3"},

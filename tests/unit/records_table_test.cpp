@@ -65,6 +65,51 @@ TEST(RecordsTable, WithoutPublishedFiguresHasNoColumnForThem) {
   EXPECT_FALSE(contains(table, "host time per frame"));
 }
 
+TEST(RecordsTable, FilteredImagesHaveRowsAndAColumnOfTheirOwn) {
+  RunRecord noisy = record("simple", "RL", 20, 0.5);
+  EXPECT_FALSE(contains(experiment_table(experiment(), {noisy}, {}, "d"), "iltered"));
+  RunRecord filtered = record("simple", "NEE", 30, 0.25);
+  filtered.snapshots[0].filtered = FilteredRecord{{}, 1};
+  filtered.snapshots[0].filtered->errors.relmse = 0.125;
+  const std::string table = experiment_table(experiment(), {noisy, filtered}, {}, "d");
+  EXPECT_TRUE(contains(table, "| relMSE | relMSE filtered (biased) |")) << table;
+  EXPECT_TRUE(contains(table, "|   0.25 |                        - |")) << table;
+  EXPECT_TRUE(contains(table, "| NEE, à-trous (biased) |")) << table;
+  EXPECT_TRUE(contains(table, "|      - |                    0.125 |")) << table;
+  EXPECT_FALSE(contains(table, "RL, à-trous")) << table;
+}
+
+TEST(RecordsTable, FilteredImagesAreToldApartWithoutAxesToo) {
+  Experiment plain = experiment();
+  plain.axes.clear();
+  RunRecord run = record("simple", "NEE", 30, 0.25);
+  run.run.labels.clear();
+  run.snapshots[0].filtered = FilteredRecord{};
+  const std::string table = experiment_table(plain, {run}, {}, "d");
+  EXPECT_TRUE(contains(table, "| image            |")) << table;
+  EXPECT_TRUE(contains(table, "| mean             |")) << table;
+  EXPECT_TRUE(contains(table, "| à-trous (biased) |")) << table;
+}
+
+TEST(RecordsTable, FirefliesHaveAColumnAndClampingALine) {
+  RunRecord run = record("simple", "RL", 20, 0.5);
+  run.frames[0].statistics.paths = 1'000'000;
+  run.frames[0].statistics.fireflies = 12;
+  run.frames[0].statistics.clamped_samples = 34;
+  std::string table = experiment_table(experiment(), {run}, {}, "d");
+  EXPECT_TRUE(contains(table, "| fireflies / M samples |")) << table;
+  EXPECT_TRUE(contains(table, "|                    12 |")) << table;
+  EXPECT_FALSE(contains(table, "lamp")) << table;
+  run.run.config.render.clamp_radiance = 10;
+  run.snapshots[0].clamp_bias = -0.5;
+  table = experiment_table(experiment(), {run}, {}, "d");
+  EXPECT_TRUE(
+      contains(table,
+               "- simple / RL: clamped (biased): clamp_radiance 10 scaled down 34 samples and changed "
+               "the mean by -0.5\n"))
+      << table;
+}
+
 TEST(RecordsTable, NamesFailedRunsAndFlagsTheFloor) {
   RunRecord failed = record("simple", "RL", 1, 1);
   failed.status = "failed";

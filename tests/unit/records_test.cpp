@@ -62,6 +62,8 @@ FrameRecord frame_record(int frame, double host_ms, double elapsed_s) {
   record.statistics.path_segments = 25;
   record.statistics.zero_paths = 4;
   record.statistics.non_finite = 1;
+  record.statistics.fireflies = 2;
+  record.statistics.clamped_samples = 5;
   return record;
 }
 
@@ -79,6 +81,7 @@ RunRecord run_record(const std::string& cell, std::uint32_t seed, double relmse)
   SnapshotRecord snapshot;
   snapshot.frame = 3;
   snapshot.errors.relmse = relmse;
+  snapshot.clamp_bias = -relmse / 8;
   record.snapshots = {snapshot};
   return record;
 }
@@ -91,6 +94,8 @@ TEST(Records, FrameColumns) {
   EXPECT_EQ(field(columns, row, "gpu_ms"), "50");
   EXPECT_EQ(field(columns, row, "mean_path_length"), "2.5");
   EXPECT_EQ(std::stod(field(columns, row, "zero_path_fraction")), 0.4);
+  EXPECT_EQ(field(columns, row, "fireflies"), "2");
+  EXPECT_EQ(field(columns, row, "clamped_samples"), "5");
   FrameRecord empty;
   EXPECT_EQ(field(columns, empty, "mean_path_length"), "");
 }
@@ -107,6 +112,44 @@ TEST(Records, SnapshotColumnsLeaveUnknownNoiseEmpty) {
   row.errors.reference = ReferenceNoise{1, 0.125};
   EXPECT_EQ(field(columns, row, "reference_relmse"), "0.125");
   EXPECT_EQ(field(columns, row, "at_reference_floor"), "1");
+}
+
+TEST(Records, FilteredErrorsHaveColumnsOfTheirOwn) {
+  const auto columns = filtered_columns();
+  expect_distinct(columns);
+  SnapshotRecord row;
+  row.frame = 4;
+  row.errors.relmse = 1;
+  EXPECT_EQ(field(columns, row, "filtered_relmse"), "");
+  row.filtered = FilteredRecord{{}, 12.5};
+  row.filtered->errors.relmse = 0.25;
+  EXPECT_EQ(field(columns, row, "spp"), "4");
+  EXPECT_EQ(field(columns, row, "relmse"), "no such column");
+  EXPECT_EQ(field(columns, row, "filtered_relmse"), "0.25");
+  EXPECT_EQ(field(columns, row, "filter_ms"), "12.5");
+  EXPECT_EQ(field(snapshot_columns(), row, "relmse"), "1");
+  EXPECT_EQ(field(snapshot_columns(), row, "filtered_relmse"), "no such column");
+}
+
+TEST(Records, FirefliesClampingAndFilteringAreSummedUp) {
+  const auto columns = run_columns({});
+  RunRecord row = run_record("a", 1, 0.5);
+  EXPECT_EQ(field(columns, row, "fireflies"), "6");
+  EXPECT_EQ(field(columns, row, "fireflies_per_million"), "200000");
+  EXPECT_EQ(field(columns, row, "firefly_energy_fraction"), "");
+  EXPECT_EQ(field(columns, row, "brightest_firefly"), "");
+  EXPECT_EQ(field(columns, row, "clamped_samples"), "15");
+  EXPECT_EQ(field(columns, row, "clamp_bias"), "-0.0625");
+  EXPECT_EQ(field(columns, row, "filtered_relmse"), "");
+  EXPECT_EQ(field(columns, row, "filter_ms"), "");
+  row.fireflies = {0.125, 1000};
+  row.snapshots[0].filtered = FilteredRecord{{}, 3};
+  row.snapshots[0].filtered->errors.relmse = 0.25;
+  EXPECT_EQ(field(columns, row, "firefly_energy_fraction"), "0.125");
+  EXPECT_EQ(field(columns, row, "brightest_firefly"), "1000");
+  EXPECT_EQ(field(columns, row, "filtered_relmse"), "0.25");
+  EXPECT_EQ(field(columns, row, "relmse"), "0.5");
+  EXPECT_EQ(field(columns, row, "filter_ms"), "3");
 }
 
 TEST(Records, WarmupIsOutOfTheMedianAndInTheTotal) {
@@ -148,6 +191,11 @@ TEST(Records, CellsPoolFramesAndAverageErrors) {
   EXPECT_TRUE(cells[0].relmse->half_width.has_value());
   EXPECT_NEAR(cells[0].relmse_x_s->mean, 0.5 * 0.106, 1e-15);
   EXPECT_EQ(cells[0].non_finite, 9U);
+  EXPECT_EQ(cells[0].clamped_samples, 45U);
+  EXPECT_EQ(cells[0].fireflies_per_million->mean, 200000);
+  EXPECT_EQ(cells[0].fireflies_per_million->half_width, 0);
+  EXPECT_EQ(cells[0].clamp_bias->mean, -0.0625);
+  EXPECT_FALSE(cells[0].relmse_filtered.has_value());
   EXPECT_FALSE(cells[1].relmse->half_width.has_value());
 }
 

@@ -39,6 +39,14 @@ TEST(Reference, NeverLearns) {
   EXPECT_EQ(spec.hash.size(), 32U);
 }
 
+TEST(Reference, NeverClamps) {
+  RunConfig config = small_config();
+  config.render.clamp_radiance = 3;
+  const ReferenceSpec spec = reference_spec(config, "scene");
+  EXPECT_EQ(spec.settings.clamp_radiance, 0);
+  EXPECT_EQ(spec.definition.at("clamp_radiance"), 0);
+}
+
 TEST(Reference, IsSharedByRunsThatEstimateTheSame) {
   const RunConfig config = small_config();
   RunConfig other = config;
@@ -49,6 +57,9 @@ TEST(Reference, IsSharedByRunsThatEstimateTheSame) {
   other.render.seed = 77;
   other.render.rl.bins_phi = 3;
   other.render.russian_roulette_start = 5;
+  other.render.clamp_radiance = 3;
+  other.filter.kind = FilterKind::atrous;
+  other.firefly_multiple = 7;
   other.frames = 2;
   EXPECT_EQ(hash_of(config), hash_of(other));
 }

@@ -55,13 +55,25 @@ TEST(WritersExr, SameImageSameBytes) {
   EXPECT_EQ(folder.read("a.exr"), folder.read("b.exr"));
 }
 
-TEST(WritersExr, FirstHitHasNineChannels) {
-  FirstHitImage hit{1, 1, {{0, 1, 0}}, {{1, 2, 3}}, {{0.5F, 0.25F, 1}}};
+TEST(WritersExr, FirstHitHasTwelveChannels) {
+  FirstHitImage hit{1, 1, {{0, 1, 0}}, {{1, 2, 3}}, {{0.5F, 0.25F, 1}}, {{0, 0, 7}}};
   const ExrImage exr = to_exr(hit, {});
-  EXPECT_EQ(exr.channels.size(), 9U);
+  EXPECT_EQ(exr.channels.size(), 12U);
   EXPECT_EQ(exr.channels.at("normal.Y"), std::vector<float>{1});
   EXPECT_EQ(exr.channels.at("position.Z"), std::vector<float>{3});
   EXPECT_EQ(exr.channels.at("albedo.G"), std::vector<float>{0.25F});
+  EXPECT_EQ(exr.channels.at("emission.B"), std::vector<float>{7});
+}
+
+TEST(WritersExr, TheFilteredLayerStandsBesideTheMean) {
+  ExrImage exr = to_exr(image_3x2(), {});
+  RadianceImage filtered = image_3x2();
+  for (glm::dvec3& pixel : filtered.mean) pixel *= 2;
+  filtered.variance.clear();
+  add_filtered(exr, filtered);
+  EXPECT_EQ(exr.channels.size(), 9U);
+  EXPECT_EQ(exr.channels.at("filtered.R").at(3), 6);
+  EXPECT_EQ(exr.channels.at("R").at(3), 3);
 }
 
 TEST(WritersExr, WithoutVarianceTheNoiseIsUnknown) {
