@@ -101,10 +101,14 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   return truth;
 }
 
-TEST_P(Rules, FindThePatternOfAClosedRoom) {
-  if (GetParam() == UpdateRule::q_learning || GetParam() == UpdateRule::paper_listing) {
-    GTEST_SKIP() << "its fixed point is not the incident radiance";
-  }
+// Those whose fixed point is the incident radiance.
+class RulesOfRadiance : public testing::TestWithParam<UpdateRule> {};
+
+INSTANTIATE_TEST_SUITE_P(All, RulesOfRadiance,
+                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa, UpdateRule::monte_carlo),
+                         [](const auto& rule) { return std::string(enum_name(rule.param)); });
+
+TEST_P(RulesOfRadiance, FindThePatternOfAClosedRoom) {
   const Scene furnace = patterned_furnace();
   RenderSettings settings = closed_settings(GetParam());
   settings.rl.bsdf_fraction = 0;  // uniform within a bin, as the truth is averaged
