@@ -47,8 +47,8 @@ const float LEAST_COSINE = 0.1;
 const float GUESSED_ALBEDO = 0.5;
 
 // The square of what a light contributes if nothing hides it, seen from the cell's middle, in units of the brightest
-// light: the prior of Vevoda, Kondapaneni & Krivanek 2018 (section 5), from a point for the light. What has no axis
-// shows a quarter of its area to all sides.
+// light: as the prior of Vevoda, Kondapaneni & Krivanek 2018, from a point for the light. What has no axis shows a
+// quarter of its area to all sides.
 float guess(uint cell, uint light) {
   vec3 to_light = lights[light].centre.xyz - places[cell].position.xyz;
   float distance2 = max(dot(to_light, to_light), 1e-30);

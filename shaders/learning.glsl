@@ -1,6 +1,6 @@
 // What a path teaches the table, at the moments of its way. After a ray from x in direction w hit y, the value of
 // (x, w) moves towards a target that estimates the radiance which arrives at x from w:
-//   expected_sarsa  Le(y) + integral of Q(y, wi) f_r cos(theta_i) dwi     Dahm & Keller 2017, eq. 8; the report, eq. 18
+//   expected_sarsa  Le(y) + integral of Q(y, wi) f_r cos(theta_i) dwi     Dahm & Keller 2017; the report, eq. 18
 //   sarsa           Le(y) + f_r cos(theta') / p(w') Q(y, w'), with w' the direction that is drawn at y
 //                                                                         the report, eq. 12
 //   q_learning      Le(y) + reflectance(y) max over bins of Q(y, .)       the report, eq. 13

@@ -21,9 +21,8 @@ float table_pdf(uint cell, uint bin) {
 const uint EXPECTATION_SAMPLES = 16u;
 
 // The integral of Q f_r cos(theta) over the bins, averaged over the channels, where the BSDF has a lobe that may be
-// narrower than a bin: directions drawn from the BSDF itself, at a rank-1 lattice (Fibonacci, n = 16 with generator
-// 7 and, for the choice of lobe, 11) that `rotation` shifts (Cranley & Patterson 1976). Its mean over all rotations
-// is the integral.
+// narrower than a bin: directions drawn from the BSDF itself, at a rank-1 lattice with generator (1, 7, 11) that
+// `rotation` shifts (Cranley & Patterson 1976). Its mean over all rotations is the integral.
 float expected_reflection(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 rotation) {
   float sum = 0.0;
   uint i = 0u;
