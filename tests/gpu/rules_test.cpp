@@ -67,6 +67,23 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
+// Paths that roulette ends teach nothing beyond, and those that survive teach so much more.
+TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
+  RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
+  settings.russian_roulette_start = 2;
+  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
+  render(tracer, 400);
+  const std::vector<float> values = tracer.table()->values();
+  const std::vector<std::uint32_t> visits = tracer.table()->visits();
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += double{values[i]} * visits[i];
+    weight += visits[i];
+  }
+  EXPECT_NEAR(sum / weight, 2, 0.05);
+}
+
 // Where the table's own state is a cell, the truth is the mean over the cell and the bin: hits of camera rays and of
 // their reflections, uniform directions in each bin, the radiance of the wall that is met.
 std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settings, const Scene& scene) {
