@@ -70,7 +70,7 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
         config.warmup_frames);
   visit(KnobInfo{"snapshots", "frames", "frames after which image and errors are kept, besides the last"},
         config.snapshots);
-  visit(KnobInfo{"reference", "", "the long render without learning that errors are measured against"},
+  visit(KnobInfo{"reference", "", "the long render without learned directions that errors are measured against"},
         config.reference);
   visit(
       KnobInfo{

@@ -126,7 +126,9 @@ void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& pro
 void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes) {
   for (const Run& run : experiment.runs) {
     try {
-      check_limits(context, scenes.load(experiment.scene_file(run)).scene, run.config.render);
+      const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+      check_limits(context, scene.scene, run.config.render);
+      check_limits(context, scene.scene, reference_spec(run.config, scene.hash).settings);
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
     }

@@ -151,6 +151,9 @@ void ReferenceStore::render(const ReferenceSpec& spec, const LoadedScene& scene,
   const auto start = std::chrono::steady_clock::now();
   progress_.begin(fmt::format("reference of {}", scene.scene.name), spec.frames, spec.work() / spec.frames);
   Tracer tracer(context_, scene.scene, spec.settings);
+  for (const std::string& warning : tracer.warnings()) {
+    progress_.warning(fmt::format("reference {}: {}", spec.hash, warning));
+  }
   std::uint64_t non_finite = 0;
   for (int frame = 1; frame <= spec.frames; ++frame) {
     tracer.render_frame();

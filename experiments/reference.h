@@ -1,4 +1,4 @@
-// The long render that errors are measured against: plain path tracing, never learned, found again by a
+// The long render that errors are measured against: plain path tracing without learned directions, found again by a
 // hash of everything that defines it.
 #pragma once
 
@@ -32,7 +32,7 @@ struct ReferenceSpec {
 };
 
 // BSDF sampling with one-ray NEE and the default Russian roulette, so that runs which differ in those
-// share one reference; size, bounces and environment are the run's.
+// share one reference; size, bounces and environment are the run's, the choice of lights is the reference's own.
 ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_hash);
 
 struct Reference {

@@ -1,4 +1,4 @@
-// Cells on the surfaces: the states of the Q-table.
+// Cells: the states of the Q-table.
 #include "surface.glsl"
 
 const int NO_CELL = -1;

@@ -107,14 +107,15 @@ void learn_bins(uint cell) {
 
 #if LIGHT_COLUMNS > 0
 
-// The floor goes by power. Its widths are rounded up to whole words, hence the word that each light takes from the
-// rest; and each is rounded as a float, by 2^-24 of itself a few times, hence the slack.
+// The floor goes by power. Each light has a word of its own besides, so that none can vanish in rounding; and widths
+// are rounded as floats, by 2^-24 of themselves a few times, hence the slack.
 const float FLOOR_SLACK = 1e-6;
 
 void prepare_lights(uint first, float total) {
   float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.w : 1.0;
-  float floor_words = FLOOR_RANGE * floor_share * (1.0 - FLOOR_SLACK);
-  float rest = max(FLOOR_RANGE * (1.0 - floor_share) - float(LIGHT_COLUMNS), 0.0);
+  float words = FLOOR_RANGE * (1.0 - FLOOR_SLACK) - float(LIGHT_COLUMNS);
+  float floor_words = words * floor_share;
+  float rest = words - floor_words;
   float sum = 0.0;
   uint floor_start = 0u;
   uint light = 0u;

@@ -6,7 +6,8 @@ struct Step {
   float gain;
 };
 
-// log(1 + x) and 1 - exp(x), where x may be small against 1: three terms of the series are exact to a float there.
+// log(1 + x) and 1 - exp(x), where x may be small against 1: three terms of the series are
+// good to 3e-7 of it there.
 const float SERIES_LIMIT = 0.01;
 
 float log_one_plus(float x) {

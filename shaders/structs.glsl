@@ -46,7 +46,8 @@ struct Light {
   vec4 choice;  // x: probability of choosing it where nothing is learned: by power, or uniform, y: by power
   uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
   vec4 centre;  // xyz: mean point, w: area
-  vec4 axis;    // xyz: mean of the unit normals by area, w: mean radiance in units of the brightest light
+  vec4 axis;    // xyz: mean of the unit normals by area, w: mean radiance in units of the brightest light,
+                // of both faces together
 };
 
 // What a row of the table stands for.

@@ -78,7 +78,7 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
         rl.learning_rate);
   visit(KnobInfo{"rate_constant", "", "learning rate of learning_rate constant", 1e-6, 1}, rl.rate_constant);
   // The sum of rates must diverge and the sum of their squares must not (Robbins & Monro 1951).
-  visit(KnobInfo{"rate_exponent", "", "exponent of learning_rate power", 0.5, 1}, rl.rate_exponent);
+  visit(KnobInfo{"rate_exponent", "", "exponent of learning_rate power", 0.51, 1}, rl.rate_exponent);
   visit(KnobInfo{"cells", "",
                  "states: Voronoi cells on the surfaces, or a regular grid of boxes with six normals each"},
         rl.cells);

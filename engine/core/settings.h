@@ -84,8 +84,8 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
   visit(KnobInfo{"light_floor", "probability", "share of learned light choices that goes by power", 0.001, 1},
         settings.light_floor);
   visit(KnobInfo{"light_prior", "visits",
-                 "how many visits the guess that nothing hides a light counts for where lights are learned; 0: no "
-                 "guess, by power at first",
+                 "how many visits of a light the guess that nothing hides a light counts for where lights are learned; "
+                 "0: no guess, by power at first",
                  0, 1000000},
         settings.light_prior);
   visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},

@@ -6,6 +6,7 @@
 #include "engine/gpu/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
+#include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ constexpr int kSitesPerIteration = 4;  // of the linear search in voronoi.glsl
 // seen; no bound below the number of sites holds everywhere, and a search that is cut is detected
 // (loop_was_cut).
 constexpr int kTurnsPerLevel = 20;
-// Registers of an invocation spill to memory for the lessons of monte_carlo.glsl, 48 bytes for each.
+// Registers of an invocation spill to memory for the lessons of monte_carlo.glsl, 44 bytes for each.
 constexpr int kMostLessons = 64;
 
 // Turns of a loop that one search for a cell may take.
@@ -67,17 +68,19 @@ void check_lessons(const RenderSettings& settings) {
 
 }  // namespace
 
+static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) && sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSample) &&
+              sizeof(gpu::FirstHit) >= sizeof(gpu::PixelOutliers));
+
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   const auto pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-  gpu::check_buffer_size("pixel sums", pixels * sizeof(gpu::PixelSum));
+  gpu::check_buffer_size("first hits", pixels * sizeof(gpu::FirstHit));  // the largest of those with pixels
   check_lessons(settings);
   const gpu::SceneFeatures features = gpu::find_features(scene);
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
   const std::size_t columns = table_columns(effective, features);
   CellBuffers::check_size(scene, settings.rl);
-  gpu::check_buffer_size("Q targets (cells x columns)",
-                         CellBuffers::count(scene, settings.rl) * columns * sizeof(gpu::TargetSum));
+  QTable::check_size(CellBuffers::count(scene, settings.rl), columns);
   check_loop_budget(context.device(), scene, effective, columns);
 }
 

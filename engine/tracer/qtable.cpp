@@ -50,6 +50,12 @@ void QTable::learn() {
   forget_touched();
 }
 
+void QTable::discard() {
+  sums_.clear();
+  touched_.clear();
+  forget_touched();
+}
+
 void QTable::reset() {
   sums_.clear();
   bind();
@@ -82,8 +88,18 @@ std::vector<float> QTable::values() const { return values_.read_all<float>(); }
 
 std::vector<std::uint32_t> QTable::visits() const { return visits_.read_all<std::uint32_t>(); }
 
+void QTable::check_size(std::size_t cells, std::size_t columns) {
+  // Every implementation of OpenGL allows so many work groups.
+  constexpr std::size_t kMostCells = std::size_t{65535} * gpu::LEARN_GROUP;
+  check(cells <= kMostCells, "{} cells (two for each site) are more than the {} that one update can reach; lower the "
+        "number of sites", cells, kMostCells);
+  gpu::check_buffer_size("Q targets (cells x columns)", cells * columns * sizeof(gpu::TargetSum));
+  gpu::check_buffer_size("places of cells", cells * sizeof(gpu::CellPlace));
+}
+
 void QTable::set_values(std::span<const float> values) {
   check(values.size() == entries_, "a table of {} values was given for one of {}", values.size(), entries_);
+  discard();
   values_.write(0, values.data(), values.size_bytes());
   touch_all();
   learn();

@@ -1,4 +1,4 @@
-// The Q-table on the device: sites, values, and the update between two frames.
+// The table on the device: cells, values, and the update between two frames.
 #pragma once
 
 #include "engine/core/settings.h"
@@ -19,13 +19,18 @@ class QTable {
   QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines);
 
   void bind() const;
-  // Applies the targets that a frame gathered and prepares the next frame's bins. Parameters must be bound.
+  // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be bound.
   void learn();
+  // Drops them instead.
+  void discard();
   // As at the start: initial values, nothing visited. Parameters must be bound.
   void reset();
 
   const CellBuffers& cells() const { return cells_; }
   std::size_t bytes() const;
+
+  // Throws Error where the device cannot hold such a table.
+  static void check_size(std::size_t cells, std::size_t columns);
 
   std::size_t columns() const { return columns_; }
 

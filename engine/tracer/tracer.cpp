@@ -104,7 +104,9 @@ void Tracer::render_frame() {
   const auto [x, y] = s.groups();
   s.trace.dispatch(x, y);
   s.film.accumulate(s.frames);
-  if (s.table && s.learning) s.table->learn();
+  if (!s.table) return;
+  if (s.learning) s.table->learn();
+  else s.table->discard();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }

@@ -137,6 +137,37 @@ TEST_F(LightChoices, Learned) {
   }
 }
 
+// Thousands of lights, the last one weak, and nothing learned: whole words of 2^-32 go round exactly once.
+TEST_F(LightChoices, ThousandsOfLightsFillTheRangeOnce) {
+  scene_ = lit_floor(0.8F, 10, 1, 1).scene;
+  constexpr std::uint32_t kMore = 5078;
+  scene_.materials.push_back(lambert(glm::vec3(0), glm::vec3(1e-3F)));
+  for (std::uint32_t i = 0; i < kMore; ++i) {
+    const float x = static_cast<float>(i % 72) * 0.2F - 7;
+    const float z = static_cast<float>(i / 72) * 0.2F - 7;
+    add_quad(scene_, {x, 3, z}, {0.1F, 0, 0}, {0, 0, 0.1F}, i + 1 < kMore ? 1 : 2);
+  }
+  // All in the object of the first light.
+  scene_.objects.resize(2);
+  scene_.objects[1].triangle_count += 2 * kMore;
+  for (std::uint32_t i = 4; i < scene_.triangles.size(); ++i) scene_.triangles[i].object = 1;
+  settings_.sampler = Sampler::bsdf;
+  settings_.nee = Nee::one_ray;
+  settings_.lights = LightChoice::learned;
+  settings_.light_prior = 0;
+  build();
+  ASSERT_EQ(table_->columns(), kMore + 1);
+  const gpu::LightTable lights = gpu::build_light_table(scene_, LightChoice::power);
+  const auto found = probe<glm::vec4>("vec4", {"variants.glsl", "nee.glsl"}, "",
+                                      "result = vec4(light_probability(0, index));", kMore + 1, defines_);
+  double sum = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    sum += found[i].x;
+    EXPECT_NEAR(found[i].x, lights.lights[i].choice.y, 3e-6) << i;
+  }
+  EXPECT_NEAR(sum, 1, 1e-6);
+}
+
 // Before anything is learned: small lights straight above by the inverse square of their distance, and what faces
 // away hardly at all. The guess counts as so many visits.
 TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
