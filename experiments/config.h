@@ -46,6 +46,18 @@ void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
         reference.lights);
 }
 
+// When the learned table is written into the run's folder (saved_table.h).
+enum class SaveTable { none, last, snapshots };
+
+}  // namespace qtrace::experiments
+
+template <>
+struct qtrace::EnumNames<qtrace::experiments::SaveTable> {
+  static constexpr std::array<std::string_view, 3> values{"none", "last", "snapshots"};
+};
+
+namespace qtrace::experiments {
+
 struct RunConfig {
   std::string name;
   std::string scene;
@@ -53,6 +65,7 @@ struct RunConfig {
   int frames = 64;
   int warmup_frames = 1;
   SnapshotPlan snapshots;
+  SaveTable save_table = SaveTable::none;
   ReferenceSettings reference;
   double firefly_multiple = 100;
   FilterSettings filter;
@@ -70,6 +83,9 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
         config.warmup_frames);
   visit(KnobInfo{"snapshots", "frames", "frames after which image and errors are kept, besides the last"},
         config.snapshots);
+  visit(KnobInfo{"save_table", "",
+                 "keep the table as .npy files: never, after the last frame, or at snapshots"},
+        config.save_table);
   visit(KnobInfo{"reference", "", "the long render without learning that errors are measured against"},
         config.reference);
   visit(
