@@ -41,7 +41,7 @@ void write_cells(const fs::path& folder, const std::vector<CellState>& states) {
   rows.reserve(states.size() * kCellColumns);
   for (const CellState& s : states) {
     rows.insert(rows.end(), {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
-                             static_cast<float>(s.object)});
+                             s.object == kNoObject ? -1.0F : static_cast<float>(s.object)});
   }
   write_npy<float>(folder / "cells.npy", kCellColumns, rows);
 }
