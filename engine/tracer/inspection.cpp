@@ -84,7 +84,7 @@ struct Inspection::State {
         parameter_block("parameters", sizeof(gpu::Parameters)),
         defines(inspection_defines(wanted, buffers.features())) {
     const gpu::Parameters parameters =
-        make_parameters(scene.camera, truth_settings(wanted), buffers.features(), cells.count());
+        make_parameters(scene.camera, truth_settings(wanted), buffers.features(), &cells);
     parameter_block.write(0, &parameters, sizeof(parameters));
   }
 
