@@ -98,7 +98,9 @@ def _draw_hemispheres(part: SubFigure, hemisphere: ExrImage) -> None:
         axes.set_title(title)
         axes.set_axis_off()
     clipped = bool(panels["true"].max() > norm.vmax)
-    part.colorbar(image, ax=list(row), label="incident radiance, mean of R, G, B", extend="max" if clipped else "neither")
+    ticks = norm.inverse(np.linspace(0, 1, 6))  # evenly spaced on the page
+    part.colorbar(image, ax=list(row), label="incident radiance, mean of R, G, B", ticks=ticks, format="%.2g",
+                  extend="max" if clipped else "neither")
 
 
 def inspection_figure(cells: ExrImage, hemisphere: ExrImage, pixel: tuple[int, int], name: str) -> Figure:
