@@ -123,7 +123,8 @@ def inspection_figure(cells: ExrImage, hemisphere: ExrImage, pixel: tuple[int, i
 
 def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("run", metavar="RUN_FOLDER", type=Path, help="results/<experiment>/<run>, after `qtrace inspect`")
+    parser.add_argument("run", metavar="RUN_FOLDER", type=Path,
+                        help="results/<experiment>/<run>, after `qtrace inspect`")
     return parser.parse_args(arguments)
 
 

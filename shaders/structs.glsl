@@ -131,7 +131,7 @@ struct FilterPass {
 // What arrives at a point of the hemisphere about a hit, by one path (incident.comp).
 struct Incident {
   vec4 radiance;  // rgb, w: mean cosine of the bin that the path's first direction lies in
-  uvec4 bins;     // x: bin of the pixel's centre, NO_BIN outside the disk, y: bin of the path, NO_BIN where there is none
+  uvec4 bins;     // x: of the pixel's centre, NO_BIN outside the disk, y: of the path, NO_BIN where there is none
 };
 
 // Constants of a run (a uniform block).

@@ -24,8 +24,8 @@ def hemisphere_channels() -> dict[str, np.ndarray]:
     bins[0, 0] = bins[-1, -1] = -1
     true = np.where(bins == 0, 6.0, 0.3)
     true[1, 1] = 90
-    return {"bin": bins, "learned": np.where(bins == 0, 4.0, 0.5), "true.R": true * 2, "true.G": true, "true.B": true * 0,
-            "true_bin": np.where(bins == 0, 8.0, 0.3)}
+    return {"bin": bins, "learned": np.where(bins == 0, 4.0, 0.5), "true.R": true * 2, "true.G": true,
+            "true.B": true * 0, "true_bin": np.where(bins == 0, 8.0, 0.3)}
 
 
 def texts(figure) -> str:
@@ -51,7 +51,8 @@ class InspectTest(FolderTest):
         np.testing.assert_array_equal(images["learned"].mask, ~inside)
         np.testing.assert_allclose(images["learned"].data[inside], channels["learned"][inside])
         np.testing.assert_allclose(images["true, averaged over bins"].data[inside], channels["true_bin"][inside])
-        np.testing.assert_allclose(images["true"].data[inside], channels["true.G"][inside], rtol=1e-6)  # (2 + 1 + 0) / 3
+        mean = channels["true.G"]  # of 2, 1 and 0 times it
+        np.testing.assert_allclose(images["true"].data[inside], mean[inside], rtol=1e-6)
         visits = images["visits per cell (grey: none)"]
         np.testing.assert_array_equal(visits.mask, cell_channels()["visits"] == 0)
 
