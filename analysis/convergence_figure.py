@@ -44,7 +44,7 @@ def axis_range(points: pd.DataFrame, floors: list[float]) -> tuple[float, float]
     return bottom / margin, top * margin
 
 
-def _draw_cells(axes: Axes, points: pd.DataFrame, x: str, styles: dict[str, dict]) -> None:
+def draw_cells(axes: Axes, points: pd.DataFrame, x: str, styles: dict[str, dict]) -> None:
     faint = min(1, 8 / len(styles))  # many bands over each other shall not hide the lines
     for label, cell in points.groupby("label", sort=False):
         look = styles[label]
@@ -153,7 +153,7 @@ def convergence_figure(results: Results, metric: str) -> Figure:
             floors = _floor_values(results.convergence[results.convergence.scene == scene], floor_column)
             y_range = axis_range(here, floors)
             for x, axes in zip(X_AXES, row):
-                _draw_cells(axes, here, x, styles)
+                draw_cells(axes, here, x, styles)
                 _format_panel(axes, here, x, y_range)
                 _draw_floors(axes, floors, with_text=x == "spp")
             row[0].set_ylabel(label)

@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "experiments/compare.h"
 #include "experiments/experiment.h"
+#include "experiments/inspect.h"
 #include "experiments/manifest.h"
 #include "experiments/text_table.h"
 #include "experiments/version.h"
@@ -95,12 +96,31 @@ void add_run_command(CLI::App& app, RunOptions& options) {
   run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
 }
 
+CLI::App* add_inspect_command(CLI::App& app, InspectOptions& options) {
+  constexpr int kMostSamples = 1 << 20;
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "Pictures of a run's cells, and of what one of them has learned");
+  inspect->add_option("RUN_FOLDER", options.folder, "results/<experiment>/<run>, made with save_table")
+      ->required();
+  inspect->add_option("--pixel", options.pixel, "X,Y: whose cell is shown (default: the middle of the image)")
+      ->delimiter(',')
+      ->expected(2);
+  inspect->add_option("--samples", options.samples, "paths per pixel of the true hemisphere")
+      ->capture_default_str()
+      ->check(CLI::Range(1, kMostSamples));
+  inspect->add_option("--frame", options.frame, "after which frame the table was saved (default: the last)");
+  inspect->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  return inspect;
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("qtrace: convergence studies of reinforcement-learned light transport");
   app.require_subcommand(1);
   app.set_version_flag("--version", software());
   RunOptions options;
   add_run_command(app, options);
+  InspectOptions inspect_options;
+  CLI::App* inspect = add_inspect_command(app, inspect_options);
   std::string image, reference;
   CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
   compare->add_option("IMAGE", image, "OpenEXR file with R, G, B")->required();
@@ -114,6 +134,10 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (compare->parsed()) {
     fmt::print("{}", compare_files(image, reference));
+    return 0;
+  }
+  if (inspect->parsed()) {
+    fmt::print("{}", inspect_run(inspect_options));
     return 0;
   }
   if (devices->parsed()) return command_devices();

@@ -42,9 +42,22 @@ void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
                  std::numeric_limits<std::uint32_t>::max()},
         reference.seed);
   visit(KnobInfo{"lights", "",
-                 "how its next event estimation picks a light; learned: with the default table, said in every table"},
+                 "how its next event estimation picks a light; learned: with the default table, said in "
+                 "every table"},
         reference.lights);
 }
+
+// When the learned table is written into the run's folder (saved_table.h).
+enum class SaveTable { none, last, snapshots };
+
+}  // namespace qtrace::experiments
+
+template <>
+struct qtrace::EnumNames<qtrace::experiments::SaveTable> {
+  static constexpr std::array<std::string_view, 3> values{"none", "last", "snapshots"};
+};
+
+namespace qtrace::experiments {
 
 struct RunConfig {
   std::string name;
@@ -53,6 +66,7 @@ struct RunConfig {
   int frames = 64;
   int warmup_frames = 1;
   SnapshotPlan snapshots;
+  SaveTable save_table = SaveTable::none;
   ReferenceSettings reference;
   double firefly_multiple = 100;
   FilterSettings filter;
@@ -70,7 +84,11 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
         config.warmup_frames);
   visit(KnobInfo{"snapshots", "frames", "frames after which image and errors are kept, besides the last"},
         config.snapshots);
-  visit(KnobInfo{"reference", "", "the long render without learned directions that errors are measured against"},
+  visit(KnobInfo{"save_table", "",
+                 "keep the table as .npy files: never, after the last frame, or at snapshots"},
+        config.save_table);
+  visit(KnobInfo{"reference", "",
+                 "the long render without learned directions that errors are measured against"},
         config.reference);
   visit(
       KnobInfo{

@@ -60,6 +60,7 @@ std::string scene_hash(const Scene& scene) {
 std::string config_hash(const RunConfig& config, const std::string& scene_hash) {
   Json json = write_knobs(config);
   json.erase("name");
+  json.erase("save_table");
   json["scene"] = scene_hash;
   return hash_text(canonical_text(json));
 }

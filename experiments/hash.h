@@ -17,7 +17,7 @@ std::string hash_text(std::string_view text);
 std::string scene_hash(const Scene& scene);
 
 // Of the resolved config with the scene's content in the place of its path, and without the experiment's
-// name, which changes no pixel.
+// name and what is saved, which change no pixel.
 std::string config_hash(const RunConfig& config, const std::string& scene_hash);
 
 }  // namespace qtrace::experiments

@@ -1,5 +1,5 @@
-// The long render that errors are measured against: plain path tracing without learned directions, found again by a
-// hash of everything that defines it.
+// The long render that errors are measured against: plain path tracing without learned directions, found
+// again by a hash of everything that defines it.
 #pragma once
 
 #include "engine/core/image.h"
@@ -32,7 +32,8 @@ struct ReferenceSpec {
 };
 
 // BSDF sampling with one-ray NEE and the default Russian roulette, so that runs which differ in those
-// share one reference; size, bounces and environment are the run's, the choice of lights is the reference's own.
+// share one reference; size, bounces and environment are the run's, the choice of lights is the reference's
+// own.
 ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_hash);
 
 struct Reference {

@@ -46,6 +46,7 @@ class Execution {
       filter_.emplace(job_.context, first_hit, config().filter);
     }
     tracer.set_firefly_thresholds(firefly_thresholds(reference->image, config().firefly_multiple));
+    if (saves_table()) prepare_table(tracer.table(), progress);
     render(tracer, *reference, progress);
   }
 
@@ -141,7 +142,25 @@ class Execution {
     record_.frames.push_back(next);
   }
 
-  double take_snapshot(int frame, const Tracer& tracer, const Reference& reference) {
+  bool saves_table() const { return config().save_table != SaveTable::none; }
+
+  void prepare_table(const QTable* table, Progress& progress) {
+    if (table != nullptr) {
+      files_.write_cells(*table);
+    } else {
+      warn(fmt::format(
+               "save_table is {}, but there is nothing to save: neither directions nor lights are learned",
+               enum_name(config().save_table)),
+           progress);
+    }
+  }
+
+  void save_table(int frame, const QTable* table) const {
+    const bool wanted = config().save_table == SaveTable::snapshots || frame == config().frames;
+    if (wanted && table != nullptr) files_.write_q_table(frame, *table);
+  }
+
+  double take_snapshot(int frame, Tracer& tracer, const Reference& reference) {
     const RadianceImage image = tracer.radiance();
     SnapshotRecord next;
     next.frame = frame;
@@ -160,6 +179,7 @@ class Execution {
     }
     record_.snapshots.push_back(next);
     files_.write_snapshot(frame, image, filtered ? &*filtered : nullptr);
+    if (saves_table()) save_table(frame, tracer.table());
     files_.write_tables(record_);
     return next.errors.relmse;
   }

@@ -2,6 +2,7 @@
 
 #include "experiments/atomic_file.h"
 #include "experiments/manifest.h"
+#include "experiments/saved_table.h"
 
 namespace qtrace::experiments {
 
@@ -18,6 +19,14 @@ void RunFiles::write_snapshot(int frame, const RadianceImage& image, const Radia
   ExrImage exr = to_exr(image, metadata_);
   if (filtered != nullptr) add_filtered(exr, *filtered);
   write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), exr);
+}
+
+void RunFiles::write_cells(const QTable& table) const {
+  experiments::write_cells(folder_, table.cells().states());
+}
+
+void RunFiles::write_q_table(int frame, const QTable& table) const {
+  experiments::write_table(folder_, frame, table);
 }
 
 void RunFiles::write_tables(const RunRecord& record) const {

@@ -1,6 +1,7 @@
 // The files of one run's folder.
 #pragma once
 
+#include "engine/tracer/qtable.h"
 #include "experiments/exr.h"
 #include "experiments/json.h"
 #include "experiments/records.h"
@@ -19,7 +20,9 @@ class RunFiles {
   void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const;
   // frames.csv, convergence.csv and, of a run with a filter, convergence_filtered.csv.
   void write_tables(const RunRecord& record) const;
-  void write_manifest(const Json& manifest) const;  // manifest.json
+  void write_cells(const QTable& table) const;               // cells.npy
+  void write_q_table(int frame, const QTable& table) const;  // see saved_table.h
+  void write_manifest(const Json& manifest) const;           // manifest.json
 
  private:
   std::filesystem::path folder_;

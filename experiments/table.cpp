@@ -64,11 +64,12 @@ std::string reference_lines(const std::map<std::string, Reference>& references) 
   for (const auto& [hash, reference] : references) {
     const RenderSettings& settings = reference.spec.settings;
     lines += fmt::format(
-        "- {}: {} frames of {}×{}, sampler {}, nee {}, lights {}, seed {} ({}), noise in relMSE {:.3g}, in MSE {:.3g}, "
+        "- {}: {} frames of {}×{}, sampler {}, nee {}, lights {}, seed {} ({}), noise in relMSE {:.3g}, in "
+        "MSE {:.3g}, "
         "hash {}\n",
         reference.scene, reference.spec.frames, settings.width, settings.height, enum_name(settings.sampler),
-        enum_name(settings.nee), enum_name(settings.lights), settings.seed, reference.origin, reference.noise.relmse, reference.noise.mse,
-        hash);
+        enum_name(settings.nee), enum_name(settings.lights), settings.seed, reference.origin,
+        reference.noise.relmse, reference.noise.mse, hash);
     if (reference.non_finite > 0) {
       lines += fmt::format("  ({} samples of it were not finite and count as 0)\n", reference.non_finite);
     }

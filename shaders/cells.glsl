@@ -1,8 +1,6 @@
 // Cells: the states of the Q-table.
 #include "surface.glsl"
 
-const int NO_CELL = -1;
-
 // Frame of a cell's directions at a hit: the normal, and a tangent that turns smoothly within the cell.
 struct Cell {
   int index;  // row of the Q-table, NO_CELL where the hit has none

@@ -5,8 +5,6 @@
 #ifdef HAS_TABLE
 #include "cells.glsl"
 #include "columns.glsl"
-#else
-const int NO_CELL = -1;
 #endif
 
 struct LightSample {

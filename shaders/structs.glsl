@@ -129,6 +129,12 @@ struct FilterPass {
   vec4 falloff;  // 1 / sigma^2 of x: radiance in this pass, y: normal, z: position
 };
 
+// What arrives at a point of the hemisphere about a hit, by one path (incident.comp).
+struct Incident {
+  vec4 radiance;  // rgb, w: mean cosine of the bin that the path's first direction lies in
+  uvec4 bins;     // x: of the pixel's centre, NO_BIN outside the disk, y: of the path, NO_BIN where there is none
+};
+
 // Constants of a run (a uniform block).
 struct Parameters {
   vec4 camera_origin;
@@ -181,6 +187,8 @@ const float OFFSET_FRACTION = 32.0f / 16777216.0f;
 const uint NO_NODE = 0xffffffffu;
 const uint NO_TRIANGLE = 0xffffffffu;
 const uint NO_LIGHT = 0xffffffffu;
+const int NO_CELL = -1;             // of a hit
+const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp

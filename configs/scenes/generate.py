@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights .glb.
+"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace .glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
 metres, y is up, colours are linear.
@@ -24,6 +24,7 @@ GREY = Material("grey", (0.80, 0.80, 0.80))
 ROOM_CAMERA = Camera(eye=(0, 2.2, 3.5), target=(0, 3, 0), vertical_fov=60)
 # At this distance the 5.488 high opening is slightly larger than the image.
 CORNELL_CAMERA = Camera(eye=(0, 2.744, 7.7), target=(0, 2.744, 0), vertical_fov=39)
+FURNACE_CAMERA = Camera(eye=(0, 0, 0), target=(0.3, 0.2, -1), vertical_fov=68)
 
 
 def _quad(name: str, material: Material, centre: Vec, half_u: Vec, half_v: Vec) -> Object:
@@ -119,6 +120,19 @@ def cornell_box() -> list[Object]:
     ]
 
 
+def furnace() -> list[Object]:
+    """A closed cube of albedo 0.5 that emits 1 inwards: with all bounces the radiance is 2, everywhere."""
+    wall = Material("wall", (0.5, 0.5, 0.5), (1, 1, 1))
+    return [
+        _quad("wall_left", wall, (-1, 0, 0), (0, 0, -1), (0, 1, 0)),
+        _quad("wall_right", wall, (1, 0, 0), (0, 0, 1), (0, 1, 0)),
+        _quad("wall_front", wall, (0, 0, 1), (-1, 0, 0), (0, 1, 0)),
+        _quad("wall_back", wall, (0, 0, -1), (1, 0, 0), (0, 1, 0)),
+        _quad("ceiling", wall, (0, 1, 0), (1, 0, 0), (0, 0, 1)),
+        _quad("floor", wall, (0, -1, 0), (1, 0, 0), (0, 0, -1)),
+    ]
+
+
 def main() -> None:
     here = Path(__file__).resolve().parent
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -129,7 +143,8 @@ def main() -> None:
             ("simple", ROOM_CAMERA, simple()),
             ("occluded", ROOM_CAMERA, occluded()),
             ("cornell_box", CORNELL_CAMERA, cornell_box()),
-            ("many_lights", HOUSE_CAMERA, many_lights())):
+            ("many_lights", HOUSE_CAMERA, many_lights()),
+            ("furnace", FURNACE_CAMERA, furnace())):
         size = write_glb(out / f"{name}.glb", name, camera, objects)
         triangles = sum(len(o.mesh.triangles) for o in objects)
         print(f"{name}.glb: {len(objects)} objects, {triangles} triangles, {size} bytes")

@@ -72,10 +72,12 @@ struct RlSettings {
 template <class Visitor>
 void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"update", "", "target of the temporal-difference update"}, rl.update);
-  visit(KnobInfo{"learning_rate", "",
-                 "how far one target moves a value: 1/(1 + visits) of the bin or of the cell, rate_constant, or "
-                 "(1 + visits of the bin)^-rate_exponent"},
-        rl.learning_rate);
+  visit(
+      KnobInfo{
+          "learning_rate", "",
+          "how far one target moves a value: 1/(1 + visits) of the bin or of the cell, rate_constant, or "
+          "(1 + visits of the bin)^-rate_exponent"},
+      rl.learning_rate);
   visit(KnobInfo{"rate_constant", "", "learning rate of learning_rate constant", 1e-6, 1}, rl.rate_constant);
   // The sum of rates must diverge and the sum of their squares must not (Robbins & Monro 1951).
   visit(KnobInfo{"rate_exponent", "", "exponent of learning_rate power", 0.51, 1}, rl.rate_exponent);
@@ -92,10 +94,11 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  "sites_per_object",
                  0, 1e7},
         rl.total_sites);
-  visit(KnobInfo{"site_search", "",
-                 "how a hit finds its site: tree, or linear through the object's sites (the report); both find "
-                 "the same"},
-        rl.site_search);
+  visit(
+      KnobInfo{"site_search", "",
+               "how a hit finds its site: tree, or linear through the object's sites (the report); both find "
+               "the same"},
+      rl.site_search);
   visit(KnobInfo{"cell_normal_threshold", "cosine",
                  "a site serves a hit point only if the cosine between their normals exceeds this", -1, 1},
         rl.cell_normal_threshold);
@@ -108,9 +111,9 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"bins_theta", "bins", "rows of direction bins: along the cosine, or one side of the square",
                  1, 64},
         rl.bins_theta);
-  visit(KnobInfo{"bins_phi", "bins", "columns of direction bins: along the azimuth, or the other side", 1,
-                 64},
-        rl.bins_phi);
+  visit(
+      KnobInfo{"bins_phi", "bins", "columns of direction bins: along the azimuth, or the other side", 1, 64},
+      rl.bins_phi);
   visit(KnobInfo{"initial_table", "",
                  "values before anything is learned: zero, initial_value, random in [0, initial_value) (the "
                  "report), or initial_value times the bin's mean cosine"},

@@ -76,15 +76,17 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
         settings.clamp_radiance);
   visit(KnobInfo{"sampler", "", "how the next direction of a path is drawn"}, settings.sampler);
   visit(KnobInfo{"nee", "", "next event estimation: direct light by sampling the lights"}, settings.nee);
-  visit(KnobInfo{"lights", "",
-                 "how next event estimation picks a light (a connected emitting surface): all alike, by power, "
-                 "or by what the cell has learned of it"},
-        settings.lights);
+  visit(
+      KnobInfo{"lights", "",
+               "how next event estimation picks a light (a connected emitting surface): all alike, by power, "
+               "or by what the cell has learned of it"},
+      settings.lights);
   // The lower end keeps every light reachable, whatever was learned.
   visit(KnobInfo{"light_floor", "probability", "share of learned light choices that goes by power", 0.001, 1},
         settings.light_floor);
   visit(KnobInfo{"light_prior", "visits",
-                 "how many visits of a light the guess that nothing hides a light counts for where lights are learned; "
+                 "how many visits of a light the guess that nothing hides a light counts for where lights "
+                 "are learned; "
                  "0: no guess, by power at first",
                  0, 1000000},
         settings.light_prior);

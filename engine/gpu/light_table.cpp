@@ -78,7 +78,8 @@ double add_light(LightTable& table, const Scene& scene, const std::vector<std::u
   const std::vector<AliasSlot> slots = build_aliases(powers);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     LightTriangle triangle = make_triangle(scene, triangles[i], powers[i] / power);
-    triangle.link = uvec4(first + slots[i].alias, static_cast<uint>(table.lights.size()), slots[i].threshold, 0);
+    triangle.link =
+        uvec4(first + slots[i].alias, static_cast<uint>(table.lights.size()), slots[i].threshold, 0);
     table.triangle_of[triangles[i]] = static_cast<uint>(table.triangles.size());
     table.triangles.push_back(triangle);
     const auto radiance = mean_radiance(scene.materials[scene.triangles[triangles[i]].material]);

@@ -106,8 +106,8 @@ void SceneBuffers::bind() const {
 }
 
 std::size_t SceneBuffers::bytes() const {
-  return nodes_.bytes() + shapes_.bytes() + shades_.bytes() + materials_.bytes() +
-         light_triangles_.bytes() + lights_.bytes();
+  return nodes_.bytes() + shapes_.bytes() + shades_.bytes() + materials_.bytes() + light_triangles_.bytes() +
+         lights_.bytes();
 }
 
 }  // namespace qtrace::gpu

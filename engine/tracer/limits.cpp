@@ -68,7 +68,8 @@ void check_lessons(const RenderSettings& settings) {
 
 }  // namespace
 
-static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) && sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSample) &&
+static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) &&
+              sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSample) &&
               sizeof(gpu::FirstHit) >= sizeof(gpu::PixelOutliers));
 
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {

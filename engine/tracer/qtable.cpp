@@ -79,9 +79,8 @@ void QTable::forget_touched() {
 }
 
 std::size_t QTable::bytes() const {
-  return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() +
-         starts_.bytes() + next_values_.bytes() + touched_.bytes() +
-         places_.bytes();
+  return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() + starts_.bytes() +
+         next_values_.bytes() + touched_.bytes() + places_.bytes();
 }
 
 std::vector<float> QTable::values() const { return values_.read_all<float>(); }
@@ -91,8 +90,10 @@ std::vector<std::uint32_t> QTable::visits() const { return visits_.read_all<std:
 void QTable::check_size(std::size_t cells, std::size_t columns) {
   // Every implementation of OpenGL allows so many work groups.
   constexpr std::size_t kMostCells = std::size_t{65535} * gpu::LEARN_GROUP;
-  check(cells <= kMostCells, "{} cells (two for each site) are more than the {} that one update can reach; lower the "
-        "number of sites", cells, kMostCells);
+  check(cells <= kMostCells,
+        "{} cells (two for each site) are more than the {} that one update can reach; lower the "
+        "number of sites",
+        cells, kMostCells);
   gpu::check_buffer_size("Q targets (cells x columns)", cells * columns * sizeof(gpu::TargetSum));
   gpu::check_buffer_size("places of cells", cells * sizeof(gpu::CellPlace));
 }

@@ -19,7 +19,8 @@ class QTable {
   QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines);
 
   void bind() const;
-  // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be bound.
+  // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be
+  // bound.
   void learn();
   // Drops them instead.
   void discard();
@@ -41,7 +42,7 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  void touch_all();        // as if every cell had been taught something
+  void touch_all();  // as if every cell had been taught something
   void forget_touched();
 
   CellBuffers cells_;

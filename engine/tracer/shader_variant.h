@@ -7,8 +7,8 @@
 
 namespace qtrace {
 
-// The settings as they take effect: without lights there is nothing to sample, and the path's own rays count all
-// there is.
+// The settings as they take effect: without lights there is nothing to sample, and the path's own rays count
+// all there is.
 RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatures& features);
 
 // Columns of a table's row: direction bins, and the lights whose use is learned. Of effective settings.

@@ -105,8 +105,10 @@ void Tracer::render_frame() {
   s.trace.dispatch(x, y);
   s.film.accumulate(s.frames);
   if (!s.table) return;
-  if (s.learning) s.table->learn();
-  else s.table->discard();
+  if (s.learning)
+    s.table->learn();
+  else
+    s.table->discard();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }

@@ -13,6 +13,8 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any, Callable
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
@@ -74,22 +76,29 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
     return folder
 
 
-def write_exr(file: Path, value: float, spp: int, side: int = 4) -> None:
-    """A square grey image without compression, as OpenEXR's "File Layout" has it."""
+def write_exr_channels(file: Path, channels: dict[str, np.ndarray], metadata: dict[str, str]) -> None:
+    """An image of height x width floats per channel without compression, as OpenEXR's "File Layout" has it."""
     def attribute(name: str, kind: str, data: bytes) -> bytes:
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
 
-    channels = b"".join(name + b"\0" + struct.pack("<iIii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    planes = [np.asarray(channels[name], "<f4") for name in sorted(channels)]
+    height, width = planes[0].shape
+    names = b"".join(name.encode() + b"\0" + struct.pack("<iIii", 2, 0, 1, 1) for name in sorted(channels)) + b"\0"
     header = struct.pack("<ii", 20000630, 2) + b"".join([
-        attribute("channels", "chlist", channels), attribute("compression", "compression", b"\0"),
-        attribute("dataWindow", "box2i", struct.pack("<4i", 0, 0, side - 1, side - 1)),
-        attribute("spp", "string", str(spp).encode())]) + b"\0"
-    line = struct.pack(f"<{3 * side}f", *[value] * 3 * side)
-    first = len(header) + 8 * side
-    offsets = [first + y * (8 + len(line)) for y in range(side)]
-    lines = b"".join(struct.pack("<ii", y, len(line)) + line for y in range(side))
+        attribute("channels", "chlist", names), attribute("compression", "compression", b"\0"),
+        attribute("dataWindow", "box2i", struct.pack("<4i", 0, 0, width - 1, height - 1)),
+        *(attribute(key, "string", text.encode()) for key, text in metadata.items())]) + b"\0"
+    lines = [struct.pack("<ii", y, 4 * width * len(planes)) + b"".join(plane[y].tobytes() for plane in planes)
+             for y in range(height)]
+    first = len(header) + 8 * height
+    offsets = [first + y * len(lines[0]) for y in range(height)]
     file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_bytes(header + struct.pack(f"<{side}Q", *offsets) + lines)
+    file.write_bytes(header + struct.pack(f"<{height}Q", *offsets) + b"".join(lines))
+
+
+def write_exr(file: Path, value: float, spp: int, side: int = 4) -> None:
+    """A square grey image."""
+    write_exr_channels(file, {name: np.full((side, side), value) for name in "RGB"}, {"spp": str(spp)})
 
 
 class FolderTest(unittest.TestCase):

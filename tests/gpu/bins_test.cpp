@@ -13,9 +13,8 @@ class Bins : public testing::TestWithParam<BinMap> {
  protected:
   Bins() {
     device();
-    defines_ = {{"BIN_MAP", std::to_string(static_cast<int>(GetParam()))},
-                {"BINS_THETA", "7"},
-                {"BINS_PHI", "6"}};
+    defines_ = {
+        {"BIN_MAP", std::to_string(static_cast<int>(GetParam()))}, {"BINS_THETA", "7"}, {"BINS_PHI", "6"}};
   }
 
   gpu::Defines defines_;
@@ -28,8 +27,8 @@ INSTANTIATE_TEST_SUITE_P(Maps, Bins, testing::Values(BinMap::cylindrical, BinMap
 TEST_P(Bins, TheMapKeepsAreas) {
   constexpr std::uint32_t kPoints = 1 << 18;
   const auto directions = probe<glm::vec4>(
-      "vec4", kIncludes, "", "result = vec4(from_square(random_units(RandomKey(index, 1u, 3u), 1u).xy), 0.0);",
-      kPoints, defines_);
+      "vec4", kIncludes, "",
+      "result = vec4(from_square(random_units(RandomKey(index, 1u, 3u), 1u).xy), 0.0);", kPoints, defines_);
   constexpr int kSide = 24;
   std::vector<double> counts(kSide * kSide);
   for (const glm::vec4& d : directions) {
@@ -45,11 +44,11 @@ TEST_P(Bins, TheMapKeepsAreas) {
 
 TEST_P(Bins, ADirectionLiesInTheBinThatItWasDrawnFrom) {
   constexpr std::uint32_t kPoints = 1 << 16;
-  const auto found = probe<glm::uvec4>(
-      "uvec4", kIncludes, "",
-      "vec2 u = random_units(RandomKey(index, 1u, 3u), 1u).xy;\n"
-      "result = uvec4(bin_of(direction_in_bin(index % uint(BINS), u)), 0u, 0u, 0u);",
-      kPoints, defines_);
+  const auto found =
+      probe<glm::uvec4>("uvec4", kIncludes, "",
+                        "vec2 u = random_units(RandomKey(index, 1u, 3u), 1u).xy;\n"
+                        "result = uvec4(bin_of(direction_in_bin(index % uint(BINS), u)), 0u, 0u, 0u);",
+                        kPoints, defines_);
   int elsewhere = 0;
   for (std::uint32_t i = 0; i < kPoints; ++i) elsewhere += found[i].x != i % 42;
   EXPECT_LE(elsewhere, 2e-4 * kPoints);  // rounding at the edges

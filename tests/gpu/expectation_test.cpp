@@ -18,8 +18,8 @@ class Expectation : public LearningStage {
     return values;
   }
 
-  // The integral of Q f_r cos(theta), averaged over channels, by midpoints: uniform in cos(theta) and phi. A lobe
-  // of alpha 0.04 is some 30 points wide.
+  // The integral of Q f_r cos(theta), averaged over channels, by midpoints: uniform in cos(theta) and phi. A
+  // lobe of alpha 0.04 is some 30 points wide.
   double integral_in_view() const {
     constexpr std::uint32_t kRows = 2048;
     const auto sums = probe<glm::vec4>(
@@ -30,7 +30,8 @@ class Expectation : public LearningStage {
             "  float phi = 2.0 * PI * (float(i) + 0.5) / 2048.0;\n  float r = sqrt(1.0 - z * z);\n"
             "  vec3 local = vec3(r * cos(phi), r * sin(phi), z);\n"
             "  vec3 wi = to_world(local, cell.tangent, s.normal);\n"
-            "  sum += q_values[first_bin(uint(cell.index)) + bin_of(local)] * average(bsdf_cosine(s, b, -d, wi));\n"
+            "  sum += q_values[first_bin(uint(cell.index)) + bin_of(local)] * average(bsdf_cosine(s, b, -d, "
+            "wi));\n"
             "  ++i;\n} while (i < 2048u);\nresult = vec4(sum);",
         kRows, defines_);
     double sum = 0;
@@ -57,8 +58,8 @@ TEST_F(Expectation, OfLambertIsTheIntegral) {
   }
 }
 
-// Metal and plastic, from broad lobes to ones far narrower than a bin: the mean over rotations is the integral,
-// within the noise of that mean.
+// Metal and plastic, from broad lobes to ones far narrower than a bin: the mean over rotations is the
+// integral, within the noise of that mean.
 TEST_F(Expectation, OfGlossySurfacesIsTheIntegral) {
   settings_.rl.bins_theta = 6;
   settings_.rl.bins_phi = 8;

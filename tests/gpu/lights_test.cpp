@@ -10,7 +10,8 @@
 namespace qtrace::test {
 namespace {
 
-// A floor under four lights: two quads of one object, which do not touch; a double-sided one; and a tessellated one.
+// A floor under four lights: two quads of one object, which do not touch; a double-sided one; and a
+// tessellated one.
 Scene four_lights() {
   Scene scene = lit_floor(0.8F, 10, 1, 1).scene;
   const auto add_material = [&](float radiance, bool both) {
@@ -85,7 +86,8 @@ class LightChoices : public LearningStage {
             "int cell = find_cell(s).index;\n"
             "uvec4 bits = random_bits(RandomKey(index, 1u, 9u), 2u);\n"
             "LightSample light = sample_light(s, cell, bits, random_bits(RandomKey(index, 1u, 9u), 4u).x);\n"
-            "result = vec4(float(light.light), light.probability, light_probability(cell, light.light), 0.0);",
+            "result = vec4(float(light.light), light.probability, light_probability(cell, light.light), "
+            "0.0);",
         kDraws, defines_);
     std::vector<double> counts(stated.size());
     std::vector<double> expected;
@@ -124,7 +126,8 @@ TEST_F(LightChoices, Learned) {
     std::vector<float> values(table_->values().size(), 1.0F);
     const std::vector<float> squares{4, 0, 0.25F, 1e-8F};
     for (std::size_t i = 0; i < values.size(); i += columns) {
-      std::copy(squares.begin(), squares.end(), values.begin() + static_cast<std::ptrdiff_t>(i + columns - 4));
+      std::copy(squares.begin(), squares.end(),
+                values.begin() + static_cast<std::ptrdiff_t>(i + columns - 4));
     }
     table_->set_values(values);
     const double floor = settings_.light_floor;
@@ -168,8 +171,8 @@ TEST_F(LightChoices, ThousandsOfLightsFillTheRangeOnce) {
   EXPECT_NEAR(sum, 1, 1e-6);
 }
 
-// Before anything is learned: small lights straight above by the inverse square of their distance, and what faces
-// away hardly at all. The guess counts as so many visits.
+// Before anything is learned: small lights straight above by the inverse square of their distance, and what
+// faces away hardly at all. The guess counts as so many visits.
 TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(10))};
@@ -205,8 +208,8 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   EXPECT_EQ(visits[0], 3U);
 }
 
-// A light below the floor teaches the cells above that it brings nothing; the one above, the mean square of what it
-// brings: at the floor's middle radiance x albedo x form factor, if the light is small.
+// A light below the floor teaches the cells above that it brings nothing; the one above, the mean square of
+// what it brings: at the floor's middle radiance x albedo x form factor, if the light is small.
 TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   const LitFloor lit = lit_floor(0.8F, 10, 0.2F, 2);
   Scene scene = lit.scene;

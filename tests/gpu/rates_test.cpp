@@ -75,8 +75,8 @@ TEST_F(Rates, PowerOneIsTheMeanOfSingleTargets) {
   EXPECT_NEAR(value(3), 4, 1e-4);
 }
 
-// With alpha = 1 / (1 + visits(cell)) and all targets in one bin, the mean of all; another bin of the cell moves
-// by the rate that the first one's visits leave, another cell's is untouched by them.
+// With alpha = 1 / (1 + visits(cell)) and all targets in one bin, the mean of all; another bin of the cell
+// moves by the rate that the first one's visits leave, another cell's is untouched by them.
 TEST_F(Rates, VisitsPerCellCountsTheWholeCell) {
   choose(LearningRate::visits_per_cell);
   teach("1u", "8.0", 100);

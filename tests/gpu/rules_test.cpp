@@ -47,12 +47,14 @@ std::array<double, 3> errors_after(std::array<std::uint32_t, 3> frames, Tracer& 
 class Rules : public testing::TestWithParam<UpdateRule> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Rules,
-                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa, UpdateRule::q_learning,
-                                         UpdateRule::monte_carlo, UpdateRule::paper_listing),
+                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa,
+                                         UpdateRule::q_learning, UpdateRule::monte_carlo,
+                                         UpdateRule::paper_listing),
                          [](const auto& rule) { return std::string(enum_name(rule.param)); });
 
-// In the furnace the incident radiance is Le / (1 - albedo) from everywhere; so is the fixed point of q_learning,
-// whose best bin is as good as any. The listing sees an emitter in every wall and clamps its |Le| to 1.
+// In the furnace the incident radiance is Le / (1 - albedo) from everywhere; so is the fixed point of
+// q_learning, whose best bin is as good as any. The listing sees an emitter in every wall and clamps its |Le|
+// to 1.
 TEST_P(Rules, FindTheFurnacesRadiance) {
   const double truth = GetParam() == UpdateRule::paper_listing ? 1 : 2;
   RenderSettings settings = closed_settings(GetParam());
@@ -84,8 +86,8 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
   EXPECT_NEAR(sum / weight, 2, 0.05);
 }
 
-// Where the table's own state is a cell, the truth is the mean over the cell and the bin: hits of camera rays and of
-// their reflections, uniform directions in each bin, the radiance of the wall that is met.
+// Where the table's own state is a cell, the truth is the mean over the cell and the bin: hits of camera rays
+// and of their reflections, uniform directions in each bin, the radiance of the wall that is met.
 std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settings, const Scene& scene) {
   const std::vector<CellState>& states = tracer.table()->cells().states();
   const gpu::SceneBuffers buffers(scene, build_median_bvh(scene, 4));
@@ -97,17 +99,18 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   constexpr std::uint32_t kRays = 1 << 19;
   const auto found = probe<glm::vec4>(
       "vec4", {"variants.glsl", "qtable.glsl", "camera.glsl", "random.glsl"}, "",
-      radiance + ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
-                 // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.
-                 "vec4 u = random_units(key, 1u);\nvec4 w = random_units(key, 2u);\n"
-                 "vec3 d = camera_direction(u.xy * vec2(parameters.image.xy));\n"
-                 "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
-                 "vec3 next = cosine_direction(u.zw, s.normal);\n"
-                 "s = surface_at(closest_hit(ray_origin(s, next), next), next);\n"
-                 "Cell cell = find_cell(s);\nuint bin = uint(w.x * float(BINS));\n"
-                 "vec3 wi = to_world(direction_in_bin(bin, w.yz), cell.tangent, s.normal);\n"
-                 "Surface met = surface_at(closest_hit(ray_origin(s, wi), wi), wi);\n"
-                 "result = vec4(float(cell.index), float(bin), radiance[met.object], 0.0);",
+      radiance +
+          ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
+          // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.
+          "vec4 u = random_units(key, 1u);\nvec4 w = random_units(key, 2u);\n"
+          "vec3 d = camera_direction(u.xy * vec2(parameters.image.xy));\n"
+          "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
+          "vec3 next = cosine_direction(u.zw, s.normal);\n"
+          "s = surface_at(closest_hit(ray_origin(s, next), next), next);\n"
+          "Cell cell = find_cell(s);\nuint bin = uint(w.x * float(BINS));\n"
+          "vec3 wi = to_world(direction_in_bin(bin, w.yz), cell.tangent, s.normal);\n"
+          "Surface met = surface_at(closest_hit(ray_origin(s, wi), wi), wi);\n"
+          "result = vec4(float(cell.index), float(bin), radiance[met.object], 0.0);",
       kRays, shader_defines(settings, buffers.features()));
   for (const glm::vec4& v : found) {
     const auto entry = static_cast<std::size_t>(v.x) * 16 + static_cast<std::size_t>(v.y);
@@ -122,7 +125,8 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
 class RulesOfRadiance : public testing::TestWithParam<UpdateRule> {};
 
 INSTANTIATE_TEST_SUITE_P(All, RulesOfRadiance,
-                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa, UpdateRule::monte_carlo),
+                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa,
+                                         UpdateRule::monte_carlo),
                          [](const auto& rule) { return std::string(enum_name(rule.param)); });
 
 TEST_P(RulesOfRadiance, FindThePatternOfAClosedRoom) {

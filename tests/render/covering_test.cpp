@@ -70,7 +70,7 @@ std::vector<Kind> kinds() {
                   [](RenderSettings& s) -> BinMap& { return s.rl.bin_map; })};
 }
 
-using Row = std::vector<std::size_t>;                                              // a choice of each kind
+using Row = std::vector<std::size_t>;                                         // a choice of each kind
 using Pair = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;  // kind, choice, kind, choice
 
 std::vector<Pair> pairs_of(const Row& row) {

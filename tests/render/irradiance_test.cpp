@@ -4,8 +4,8 @@
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace qtrace::test {
 namespace {

@@ -39,7 +39,8 @@ class CommandLine : public testing::Test {
 TEST_F(CommandLine, HelpAndVersionSucceed) {
   const Outcome help = qtrace({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"run", "compare", "devices", "keys"}) EXPECT_TRUE(contains(help.out, command));
+  for (const char* command : {"run", "compare", "inspect", "devices", "keys"})
+    EXPECT_TRUE(contains(help.out, command));
   EXPECT_TRUE(contains(qtrace({"run", "--help"}).out, "--dry-run"));
   const Outcome version = qtrace({"--version"});
   EXPECT_EQ(version.exit_code, 0);
