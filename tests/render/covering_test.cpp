@@ -1,5 +1,6 @@
 // Every choice of the table together with every choice of every other kind estimates the same image: a set of
 // settings in which each pair of choices of two kinds occurs.
+#include "engine/scene/analytic.h"
 #include "tests/render/comparison.h"
 
 #include <gtest/gtest.h>
@@ -168,6 +169,30 @@ TEST(Covering, LearnedLightsOfUnguidedPathsEstimateTheSameImage) {
       settings.lights = LightChoice::learned;
       settings.light_floor = 0.01;
       expect_same_image(render(scene, settings, kFrames), truth, 4 * kBlocks);
+    }
+  }
+}
+
+// A wide light above a floor and one of a hundred times its power below: learned choices are far from those by power,
+// so that a weight with the wrong one of the two would count light twice or lose it.
+TEST(Covering, LightsLearnedAgainstTheirPowerKeepTheMean) {
+  LitFloor lit = lit_floor(0.8F, 2, 4, 1);
+  lit.scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(200)));
+  add_quad(lit.scene, {-2, -1, -2}, {4, 0, 0}, {0, 0, 4},
+           static_cast<std::uint32_t>(lit.scene.materials.size() - 1));
+  RenderSettings settings = unguided(900);
+  settings.environment = {0, 0, 0};
+  settings.max_bounces = 1;
+  settings.nee = Nee::none;
+  const Rendering truth = render(lit.scene, settings, 256);
+  settings.lights = LightChoice::learned;
+  for (const Nee nee : {Nee::one_ray, Nee::two_ray}) {
+    for (const Sampler sampler : {Sampler::bsdf, Sampler::rl}) {
+      SCOPED_TRACE(testing::Message() << enum_name(sampler) << ", " << enum_name(nee));
+      settings.nee = nee;
+      settings.sampler = sampler;
+      ++settings.seed;
+      expect_same_image(render(lit.scene, settings, 64), truth, 4 * kBlocks);
     }
   }
 }
