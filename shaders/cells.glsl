@@ -22,6 +22,14 @@ Cell no_cell(Surface s) {
   return Cell(NO_CELL, tangent_of(s.normal));
 }
 
+// x, -x, y, -y, z, -z.
+uint nearest_axis(vec3 normal) {
+  vec3 size = abs(normal);
+  uint k = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+  float component = k == 0u ? normal.x : k == 1u ? normal.y : normal.z;
+  return 2u * k + (component < 0.0 ? 1u : 0u);
+}
+
 #if CELLS == CELLS_GRID
 #include "grid.glsl"
 #else

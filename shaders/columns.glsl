@@ -35,7 +35,7 @@ uint choose_column(uint first, uint count, uint word) {
 // Adds a target, in its column's units, to this frame's sum. Integer sums do not depend on the order of threads.
 // Returns whether the target was clamped.
 bool gather_units(uint entry, float target) {
-  touch(entry / TABLE_COLUMNS);
+  touch(entry / TABLE_COLUMNS, entry % TABLE_COLUMNS);
   float units = round(min(target, TARGET_LIMIT));
   uint high = uint(units * (1.0 / 4294967296.0));
   uint low = uint(units - float(high) * 4294967296.0);

@@ -2,14 +2,6 @@
 // to (engine/cells/grid.h). Not every box has them; a hit without a cell is counted as one.
 layout(std430, binding = BINDING_GRID_ROWS) restrict readonly buffer GridBuffer { uint grid_rows[]; };
 
-// x, -x, y, -y, z, -z.
-uint nearest_axis(vec3 normal) {
-  vec3 size = abs(normal);
-  uint k = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
-  float component = k == 0u ? normal.x : k == 1u ? normal.y : normal.z;
-  return 2u * k + (component < 0.0 ? 1u : 0u);
-}
-
 Cell find_cell(Surface s) {
   uvec3 boxes = parameters.grid_boxes.xyz;
   vec3 place = max((s.position - parameters.grid.xyz) * parameters.grid.w, vec3(0.0));

@@ -23,13 +23,15 @@ struct Columns {
   float targets;  // of this frame
 };
 
-Columns columns_at(uint first, uint count) {
+Columns columns_at(uint first, uint count, uint marks) {
   Columns columns = Columns(first, count, 0.0, 0.0);
 #if LEARNING_RATE == RATE_VISITS_PER_CELL
   uint i = 0u;
   do {
     columns.visits += float(q_visits[first + i]);
-    columns.targets += float(target_sums[first + i].count & ~TARGET_SATURATED);
+    if (is_marked(marks, (first + i) % TABLE_COLUMNS)) {
+      columns.targets += float(target_sums[first + i].count & ~TARGET_SATURATED);
+    }
     ++i;
   } while (i < count);
   loop_was_cut = loop_was_cut || i < count;
@@ -37,7 +39,9 @@ Columns columns_at(uint first, uint count) {
   return columns;
 }
 
-void apply_targets(uint entry, Columns columns, float unit) {
+// Sums are read only where the marks allow for targets: reading them all costs more than the rest.
+void apply_targets(uint entry, Columns columns, uint marks, float unit) {
+  if (!is_marked(marks, entry % TABLE_COLUMNS)) return;
   uint targets = target_sums[entry].count & ~TARGET_SATURATED;
   if (targets == 0u) return;
   uint high = target_sums[entry].high;
@@ -79,15 +83,15 @@ void prepare_bins(uint first, float total) {
   loop_was_cut = loop_was_cut || bin < uint(BINS);
 }
 
-void learn_bins(uint cell) {
+void learn_bins(uint cell, uint marks) {
   uint first = first_bin(cell);
-  Columns columns = columns_at(first, uint(BINS));
+  Columns columns = columns_at(first, uint(BINS), marks);
   float total = 0.0;
   float irradiance = 0.0;
   float best = 0.0;
   uint bin = 0u;
   do {
-    apply_targets(first + bin, columns, TARGET_UNIT);
+    apply_targets(first + bin, columns, marks, TARGET_UNIT);
     float value = q_values[first + bin];
     total += value;
     irradiance += value * bin_cosine(bin) * BIN_SOLID_ANGLE;
@@ -129,13 +133,13 @@ void prepare_lights(uint first, float total) {
   loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
 }
 
-void learn_lights(uint cell) {
+void learn_lights(uint cell, uint marks) {
   uint first = first_light(cell);
-  Columns columns = columns_at(first, uint(LIGHT_COLUMNS));
+  Columns columns = columns_at(first, uint(LIGHT_COLUMNS), marks);
   float total = 0.0;
   uint light = 0u;
   do {
-    apply_targets(first + light, columns, LIGHT_TARGET_UNIT);
+    apply_targets(first + light, columns, marks, LIGHT_TARGET_UNIT);
     total += sqrt(q_values[first + light]);
     ++light;
   } while (light < uint(LIGHT_COLUMNS));
@@ -149,12 +153,13 @@ void main() {
   uint place = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
   if (place >= touched_head.count) return;
   uint cell = touched[place];
+  uint marks = touched[mark_of(cell)];
   touched[mark_of(cell)] = 0u;
 #if SAMPLER == SAMPLER_RL
-  learn_bins(cell);
+  learn_bins(cell, marks);
 #endif
 #if LIGHT_COLUMNS > 0
-  learn_lights(cell);
+  learn_lights(cell, marks);
 #endif
   if (loop_was_cut) report_cut(uvec2(cell, 0u));
 }

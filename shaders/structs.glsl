@@ -62,10 +62,12 @@ struct Site {
   vec4 normal;    // xyz: unit, w: bits of its subtree's bounds of normals: lower x, y, z, upper x, y, z
 };
 
-// The sites of an object: a range of the site buffer, in the order of the tree.
+// The sites of an object: a range of the site buffer, in the order of the tree; and a grid of boxes over it, for each
+// of which the sites are listed that can be nearest there (engine/cells/site_lists.h).
 struct SiteRange {
-  uint first;
-  uint count;
+  uvec4 range;  // x: first, y: count, z: first entry of the lists,
+                // w: boxes along x, y, z, in LIST_BOX_BITS bits each; 0 where there is none
+  vec4 frame;   // xyz: lower corner of the grid, w: boxes per unit
 };
 
 // Head of the list of cells that a frame taught something: the size of learn.comp's dispatch, and the list's length.
@@ -176,6 +178,7 @@ const int BINDING_OUTLIERS = 19;
 const int BINDING_FILTER_GUIDES = 20;
 const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
+const int BINDING_SITE_LISTS = 23;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -192,6 +195,9 @@ const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
+const uint LIST_BOX_BITS = 10u;
+const uint LIST_COUNT_BITS = 6u;
+const uint LISTED_ALWAYS_FITS = 0x80000000u;  // qualifies for every normal that the surface has in its box
 const uint NORMAL_BOUND_BITS = 5u;  // -1 to 1, in NORMAL_BOUND_STEPS steps
 const uint NORMAL_BOUND_STEPS = (1u << NORMAL_BOUND_BITS) - 1u;
 

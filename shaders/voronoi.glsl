@@ -8,37 +8,91 @@ struct Nearest {
   uint site;        // counted within the object
 };
 
-// Distance of a site that qualifies, infinity else. To the bit the same wherever it is called.
-float site_distance2(Surface s, Site site) {
-  precise vec3 d = site.position.xyz - s.position;
+// To the bit the same wherever it is called, as the cosine is.
+float squared_distance(Surface s, vec3 position) {
+  precise vec3 d = position - s.position;
   precise float distance2 = dot(d, d);
-  precise float cosine = dot(site.normal.xyz, s.mesh_normal);
-  return cosine > parameters.rl.z ? distance2 : INFINITY;
+  return distance2;
+}
+
+bool qualifies(Surface s, vec3 normal) {
+  precise float cosine = dot(normal, s.mesh_normal);
+  return cosine > parameters.rl.z;
+}
+
+// Of a site that qualifies, infinity else.
+float site_distance2(Surface s, Site site) {
+  float distance2 = squared_distance(s, site.position.xyz);
+  return qualifies(s, site.normal.xyz) ? distance2 : INFINITY;
 }
 
 #if SITE_SEARCH == SITE_SEARCH_LINEAR
 
 // Four sites a turn: drivers may bound the iterations of a shader (see loop_was_cut).
-Nearest nearest_site(Surface s, SiteRange range) {
+Nearest nearest_site(Surface s, SiteRange sites_of) {
+  uint first = sites_of.range.x;
+  uint count = sites_of.range.y;
   Nearest nearest = Nearest(INFINITY, 0u);
   uint site = 0u;
-  bool more = range.count > 0u;
+  bool more = count > 0u;
   do {
     if (more) {
       for (uint i = 0u; i < 4u; ++i) {
-        uint candidate = min(site + i, range.count - 1u);
-        float distance2 = site_distance2(s, sites[range.first + candidate]);
+        uint candidate = min(site + i, count - 1u);
+        float distance2 = site_distance2(s, sites[first + candidate]);
         if (distance2 < nearest.distance2) nearest = Nearest(distance2, candidate);
       }
       site += 4u;
-      more = site < range.count;
+      more = site < count;
     }
   } while (more);
-  loop_was_cut = loop_was_cut || site < range.count;
+  loop_was_cut = loop_was_cut || site < count;
   return nearest;
 }
 
 #else
+
+#if SITE_SEARCH == SITE_SEARCH_LISTS
+
+// Entries, four in an element: place << LIST_COUNT_BITS | length of a list; then the lists: xyz: bits of the position,
+// w: the site within the object | LISTED_ALWAYS_FITS.
+layout(std430, binding = BINDING_SITE_LISTS) restrict readonly buffer SiteListBuffer { uvec4 site_lists[]; };
+
+// Entry of the box that the hit is in, and of the axis that its normal is nearest to; 0 where nothing is listed.
+uint list_entry(Surface s, SiteRange sites_of) {
+  const uvec3 shift = uvec3(0u, 1u, 2u) * LIST_BOX_BITS;
+  uvec3 boxes = (uvec3(sites_of.range.w) >> shift) & ((1u << LIST_BOX_BITS) - 1u);
+  if (boxes.x == 0u) return 0u;
+  vec3 place = max((s.position - sites_of.frame.xyz) * sites_of.frame.w, vec3(0.0));
+  uvec3 box = min(uvec3(place), boxes - 1u);
+  uint entry = sites_of.range.z + ((box.z * boxes.y + box.y) * boxes.x + box.x) * 6u + nearest_axis(s.mesh_normal);
+  return site_lists[entry >> 2][entry & 3u];
+}
+
+// Looks through the list of the hit's box. Returns whether it has the site; else the tree is searched.
+bool search_list(Surface s, SiteRange sites_of, inout Nearest nearest) {
+  uint entry = list_entry(s, sites_of);
+  uint place = entry >> LIST_COUNT_BITS;
+  uint end = place + (entry & ((1u << LIST_COUNT_BITS) - 1u));
+  bool more = place < end;
+  do {
+    if (more) {
+      uvec4 listed = site_lists[place];
+      uint site = listed.w & ~LISTED_ALWAYS_FITS;
+      float distance2 = squared_distance(s, uintBitsToFloat(listed.xyz));
+      if ((listed.w & LISTED_ALWAYS_FITS) == 0u && !qualifies(s, sites[sites_of.range.x + site].normal.xyz)) {
+        distance2 = INFINITY;
+      }
+      if (distance2 < nearest.distance2) nearest = Nearest(distance2, site);
+      ++place;
+      more = place < end;
+    }
+  } while (more);
+  loop_was_cut = loop_was_cut || place < end;
+  return nearest.distance2 < INFINITY;
+}
+
+#endif
 
 // What rounding can add to a cosine of normals, and take from a bound of it, is below some 1e-6.
 const float COSINE_ROUNDING = 1e-5;
@@ -57,14 +111,19 @@ bool may_qualify(Surface s, uint bounds) {
 // parent n / 2; whether a node is reached from above, from its near or from its far child tells what comes next.
 // The far side is left out only if no site there can win: rounding is monotone, so that the rounded distance of
 // none is below the rounded distance of the split. One just as near can still be the first.
-Nearest nearest_site(Surface s, SiteRange range) {
+Nearest nearest_site(Surface s, SiteRange sites_of) {
+  uint first = sites_of.range.x;
+  uint count = sites_of.range.y;
   Nearest nearest = Nearest(INFINITY, 0u);
+#if SITE_SEARCH == SITE_SEARCH_LISTS
+  if (search_list(s, sites_of, nearest)) count = 0u;
+#endif
   uint previous = 0u;
-  uint node = min(range.count, 1u);
+  uint node = min(count, 1u);
   bool searching = node != 0u;
   do {
     if (searching) {
-      Site site = sites[range.first + node - 1u];
+      Site site = sites[first + node - 1u];
       bool is_new = previous < node;
       bool is_open = !is_new || may_qualify(s, floatBitsToUint(site.normal.w));
       if (is_new && is_open) {
@@ -79,9 +138,9 @@ Nearest nearest_site(Surface s, SiteRange range) {
       uint near = 2u * node + (beyond > 0.0 ? 1u : 0u);
       uint far = near ^ 1u;
       uint next = node >> 1;
-      if (is_new && is_open && near <= range.count) {
+      if (is_new && is_open && near <= count) {
         next = near;
-      } else if (is_open && previous != far && far <= range.count && beyond2 <= nearest.distance2) {
+      } else if (is_open && previous != far && far <= count && beyond2 <= nearest.distance2) {
         next = far;
       }
       previous = node;
@@ -96,9 +155,9 @@ Nearest nearest_site(Surface s, SiteRange range) {
 #endif
 
 Cell find_cell(Surface s) {
-  SiteRange range = site_ranges[s.object];
-  Nearest nearest = nearest_site(s, range);
+  SiteRange sites_of = site_ranges[s.object];
+  Nearest nearest = nearest_site(s, sites_of);
   if (nearest.distance2 == INFINITY) return no_cell(s);
-  uint site = range.first + nearest.site;
+  uint site = sites_of.range.x + nearest.site;
   return cell_at(s, 2u * site + (s.back ? 1u : 0u), sites[site].normal.xyz);
 }

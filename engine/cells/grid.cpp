@@ -1,12 +1,9 @@
 #include "engine/cells/grid.h"
 
-#include "engine/cells/clip.h"
-
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,12 +12,6 @@ namespace {
 
 // A bit for each axis that a normal may be nearest to, whatever its sign.
 using Axes = std::uint32_t;
-
-// Boxes reach this far into their neighbours, in boxes and in parts of the largest coordinate: the device
-// finds a hit's box in single precision.
-constexpr double kBoxSlack = 1e-3;
-constexpr double kCoordinateSlack = 32.0 / 16777216.0;
-constexpr double kNormalSlack = 1e-4;
 
 Axes nearest_axes(glm::dvec3 normal) {
   const glm::dvec3 size = glm::abs(normal);
@@ -31,21 +22,10 @@ Axes nearest_axes(glm::dvec3 normal) {
   return axes;
 }
 
-// Whether a normal of the polygon has its largest component along `side` of axis k.
-bool can_point_along(Polygon polygon, int k, double side) {
-  for (const int j : {(k + 1) % 3, (k + 2) % 3}) {
-    for (const double other : {-1.0, 1.0}) {
-      polygon = clip(
-          polygon, [&](const Corner& c) { return side * c.normal[k] + other * c.normal[j] + kNormalSlack; });
-    }
-  }
-  return !polygon.empty();
-}
-
 Axes axes_of(const Polygon& polygon) {
   Axes axes = 0;
   for (int k = 0; k < 3; ++k) {
-    if (can_point_along(polygon, k, 1) || can_point_along(polygon, k, -1)) axes |= 1U << k;
+    if (!pointing_along(polygon, k, 1).empty() || !pointing_along(polygon, k, -1).empty()) axes |= 1U << k;
   }
   return axes;
 }
@@ -62,60 +42,13 @@ class GridBuilder {
   CellGrid take() { return std::move(grid_); }
 
  private:
-  struct Range {
-    std::uint32_t first;
-    std::uint32_t last;
-  };
-
-  Range touched(const Polygon& polygon, int k) const {
-    const auto [low, high] = std::ranges::minmax(polygon, {}, [k](const Corner& c) { return c.position[k]; });
-    const double most = grid_.frame.boxes[k] - 1;
-    const auto box = [most](double x) {
-      return static_cast<std::uint32_t>(std::clamp(std::floor(x), 0.0, most));
-    };
-    return {box(low.position[k] - slack_), box(high.position[k] + slack_)};
-  }
-
-  // What of the polygon lies in layer `i` of boxes along axis k.
-  Polygon layer(const Polygon& polygon, int k, double i) const {
-    const Polygon above = clip(polygon, [&](const Corner& c) { return c.position[k] - i + slack_; });
-    return clip(above, [&](const Corner& c) { return i + 1 - c.position[k] + slack_; });
-  }
-
-  // Corners in units of boxes.
-  Polygon polygon_of(const Triangle& t) {
-    const GridFrame& frame = grid_.frame;
-    Polygon polygon;
-    double largest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const glm::dvec3 p = glm::dvec3(t.position[i]) - glm::dvec3(frame.origin);
-      polygon.push_back({p * double{frame.boxes_per_unit}, glm::dvec3(t.normal[i])});
-      for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(double{t.position[i][k]}));
-    }
-    slack_ = kBoxSlack + kCoordinateSlack * largest * frame.boxes_per_unit;
-    return polygon;
-  }
-
   void add(const Triangle& triangle) {
-    const Polygon whole = polygon_of(triangle);
+    const BoxedTriangle whole = boxed(grid_.frame, triangle);
     const Axes face = nearest_axes(glm::normalize(area_vector(triangle.position)));
-    const Axes anywhere = axes_of(whole) | face;
-    const Range zs = touched(whole, 2);
-    for (std::uint32_t z = zs.first; z <= zs.last; ++z) {
-      const Polygon slice = layer(whole, 2, z);
-      if (slice.empty()) continue;
-      const Range ys = touched(slice, 1);
-      for (std::uint32_t y = ys.first; y <= ys.last; ++y) {
-        const Polygon bar = layer(slice, 1, y);
-        if (bar.empty()) continue;
-        const Range xs = touched(bar, 0);
-        for (std::uint32_t x = xs.first; x <= xs.last; ++x) {
-          const Polygon piece = layer(bar, 0, x);
-          if (piece.empty()) continue;
-          mark({x, y, z}, std::has_single_bit(anywhere) ? anywhere : axes_of(piece) | face);
-        }
-      }
-    }
+    const Axes anywhere = axes_of(whole.polygon) | face;
+    for_each_piece(grid_.frame, whole, [&](glm::uvec3 box, const Polygon& piece) {
+      mark(box, std::has_single_bit(anywhere) ? anywhere : axes_of(piece) | face);
+    });
   }
 
   void mark(glm::uvec3 box, Axes axes) {
@@ -141,7 +74,6 @@ class GridBuilder {
   }
 
   CellGrid grid_;
-  double slack_ = 0;  // of the triangle in hand
 };
 
 }  // namespace

@@ -3,29 +3,17 @@
 // Pan 2019).
 #pragma once
 
+#include "engine/cells/grid_frame.h"
 #include "engine/scene/scene.h"
 
 #include <glm/vec3.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace qtrace {
 
-inline constexpr std::uint32_t kGridNormals = 6;  // x, -x, y, -y, z, -z
 inline constexpr std::uint32_t kNoRow = 0xffffffff;
-
-struct GridFrame {
-  glm::vec3 origin{0.0F};
-  float boxes_per_unit = 0.0F;
-  glm::uvec3 boxes{0};  // along each axis
-
-  std::size_t entries() const { return std::size_t{boxes.x} * boxes.y * boxes.z * kGridNormals; }
-  std::size_t entry(glm::uvec3 box, std::uint32_t normal) const {
-    return ((std::size_t{box.z} * boxes.y + box.y) * boxes.x + box.x) * kGridNormals + normal;
-  }
-};
 
 struct GridCell {
   glm::vec3 centre{0.0F};

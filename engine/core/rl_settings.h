@@ -11,7 +11,7 @@ enum class UpdateRule { expected_sarsa, sarsa, q_learning, monte_carlo, paper_li
 enum class LearningRate { visits_per_bin, visits_per_cell, constant, power };
 enum class CellKind { voronoi, grid };
 enum class SitePlacement { uv, area };
-enum class SiteSearch { tree, linear };
+enum class SiteSearch { lists, tree, linear };
 enum class BinMap { cylindrical, concentric };
 enum class InitialTable { zero, constant, random, cosine };
 
@@ -35,7 +35,7 @@ struct EnumNames<SitePlacement> {
 };
 template <>
 struct EnumNames<SiteSearch> {
-  static constexpr std::array<std::string_view, 2> values{"tree", "linear"};
+  static constexpr std::array<std::string_view, 3> values{"lists", "tree", "linear"};
 };
 template <>
 struct EnumNames<BinMap> {
@@ -55,7 +55,7 @@ struct RlSettings {
   SitePlacement site_placement = SitePlacement::uv;
   int sites_per_object = 100;
   int total_sites = 0;
-  SiteSearch site_search = SiteSearch::tree;
+  SiteSearch site_search = SiteSearch::lists;
   double cell_normal_threshold = 0.866;
   int grid_resolution = 16;
   BinMap bin_map = BinMap::cylindrical;
@@ -95,9 +95,10 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  0, 1e7},
         rl.total_sites);
   visit(
-      KnobInfo{"site_search", "",
-               "how a hit finds its site: tree, or linear through the object's sites (the report); both find "
-               "the same"},
+      KnobInfo{
+          "site_search", "",
+          "how a hit finds its site: through lists of those that can be nearest in a box, through a tree, or "
+          "linear through all of the object's (the report); each finds the same"},
       rl.site_search);
   visit(KnobInfo{"cell_normal_threshold", "cosine",
                  "a site serves a hit point only if the cosine between their normals exceeds this", -1, 1},

@@ -15,10 +15,15 @@ constexpr std::size_t kSmallest = 16;  // an empty scene part still needs someth
 
 }  // namespace
 
-void check_buffer_size(const std::string& name, std::size_t bytes) {
+std::size_t most_buffer_bytes() {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  check(bytes <= static_cast<std::size_t>(most),
+  return static_cast<std::size_t>(most);
+}
+
+void check_buffer_size(const std::string& name, std::size_t bytes) {
+  const std::size_t most = most_buffer_bytes();
+  check(bytes <= most,
         "the buffer of {} needs {:.1f} MiB and this device allows {:.1f} MiB: reduce what it holds", name,
         static_cast<double>(bytes) / kBytesPerMib, static_cast<double>(most) / kBytesPerMib);
 }

@@ -8,6 +8,9 @@
 
 namespace qtrace::gpu {
 
+// What the current context's device allows.
+std::size_t most_buffer_bytes();
+
 // Throws Error that names the buffer where the device allows none of this size.
 void check_buffer_size(const std::string& name, std::size_t bytes);
 

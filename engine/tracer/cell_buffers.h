@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/cells/grid.h"
+#include "engine/cells/site_lists.h"
 #include "engine/cells/site_tree.h"
 #include "engine/cells/sites.h"
 #include "engine/core/settings.h"
@@ -29,7 +30,7 @@ struct CellState {
 class CellBuffers {
  public:
   CellBuffers(const Scene& scene, const RlSettings& settings);
-  // Voronoi cells of sites of one's own.
+  // Voronoi cells of sites of one's own, without lists.
   explicit CellBuffers(CellSites sites);
   explicit CellBuffers(const CellGrid& grid);
 
@@ -41,7 +42,7 @@ class CellBuffers {
   const std::vector<CellState>& states() const { return states_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   const GridFrame& grid() const { return grid_; }  // without boxes unless cells are of a grid
-  std::size_t bytes() const { return cells_.bytes() + ranges_.bytes(); }
+  std::size_t bytes() const { return cells_.bytes() + ranges_.bytes() + lists_.bytes(); }
 
   // Throws Error where the device cannot hold what find_cell() reads.
   static void check_size(const Scene& scene, const RlSettings& settings);
@@ -49,13 +50,16 @@ class CellBuffers {
   static std::size_t count(const Scene& scene, const RlSettings& settings);
 
  private:
-  CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes);
+  // In the order of the trees.
+  CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes, const SiteLists& lists);
+  static CellBuffers voronoi(const Scene& scene, const RlSettings& settings);
 
   std::vector<CellState> states_;
   std::vector<std::string> warnings_;
   GridFrame grid_;
   gpu::Buffer cells_;   // sites, or the rows of a grid's entries
   gpu::Buffer ranges_;  // of the sites
+  gpu::Buffer lists_;   // of those that can be nearest
 };
 
 }  // namespace qtrace

@@ -25,7 +25,7 @@ void check_loops_of(const gpu::Statistics& block) {
   if (counter(block, gpu::STATISTIC_LOOPS_CUT) == 0) return;
   fail(
       "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
-      "too few loop iterations for these settings; search sites by tree, lower max_bounces, or split large "
+      "too few loop iterations for these settings; search sites by lists, lower max_bounces, or split large "
       "overlapping meshes",
       block.cut_pixel.x, block.cut_pixel.y);
 }

@@ -30,7 +30,7 @@ int search_turns(const Scene& scene, const RlSettings& settings) {
   if (settings.cells == CellKind::grid) return 0;
   const std::vector<std::uint32_t> counts = site_counts(scene, settings);
   const std::uint32_t most = counts.empty() ? 0 : std::ranges::max(counts);
-  if (settings.site_search == SiteSearch::tree) {
+  if (settings.site_search != SiteSearch::linear) {  // a list that is empty leaves the tree
     return kTurnsPerLevel * static_cast<int>(std::bit_width(most));
   }
   return (static_cast<int>(most) + kSitesPerIteration - 1) / kSitesPerIteration;
@@ -54,7 +54,7 @@ void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const 
         "iterations, and the driver of this device ({}) cuts loops after {}; lower max_bounces{}, or use "
         "another device",
         settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, kLoopBudget,
-        is_linear ? ", choose rl.site_search tree, lower the number of sites" : "");
+        is_linear ? ", choose rl.site_search lists, lower the number of sites" : "");
 }
 
 void check_lessons(const RenderSettings& settings) {

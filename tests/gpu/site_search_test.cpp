@@ -1,4 +1,5 @@
-// The search through the tree of sites finds what a search through all sites finds, index for index.
+// The searches through lists and through trees of sites find what a search through all sites finds, index for
+// index.
 #include "engine/core/check.h"
 #include "engine/scene/analytic.h"
 #include "engine/scene/gltf.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -99,30 +101,83 @@ std::vector<glm::uvec4> search(const std::vector<Query>& queries, SiteSearch how
       "s.object = floatBitsToUint(queries[index].position.w);\n"
       "s.mesh_normal = s.normal = queries[index].normal.xyz;\n"
       "s.back = false;\n"
-      "result = uvec4(uint(find_cell(s).index), loop_was_cut ? 1u : 0u, 0u, 0u);",
+      "result = uvec4(uint(find_cell(s).index), loop_was_cut ? 1u : 0u, 0u, 0u);\n"
+      "#if SITE_SEARCH == SITE_SEARCH_LISTS\n"
+      "result.z = (list_entry(s, site_ranges[s.object]) & ((1u << LIST_COUNT_BITS) - 1u)) != 0u ? 1u : 0u;\n"
+      "#endif",
       static_cast<std::uint32_t>(queries.size()), shader_defines(settings, {}));
 }
 
-void expect_same_cells(const CellSites& cells) {
+// Parameters that the search reads, for as long as it is bound.
+gpu::Buffer bind_threshold(double threshold) {
   device();
+  gpu::Parameters parameters{};
+  parameters.rl.z = static_cast<float>(threshold);
   gpu::Buffer block("parameters", sizeof(gpu::Parameters));
+  block.write(0, &parameters, sizeof(parameters));
   block.bind_uniform(gpu::BINDING_PARAMETERS);
+  return block;
+}
+
+std::size_t count_differences(const std::vector<glm::uvec4>& found, const std::vector<glm::uvec4>& truth) {
+  std::size_t differences = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].x != truth[i].x || found[i].y != 0) ++differences;
+  }
+  return differences;
+}
+
+void expect_same_cells(const CellSites& cells) {
   for (const float threshold : kThresholds) {
     SCOPED_TRACE(testing::Message() << "threshold " << threshold);
-    gpu::Parameters parameters{};
-    parameters.rl.z = threshold;
-    block.write(0, &parameters, sizeof(parameters));
+    const gpu::Buffer block = bind_threshold(threshold);
     const CellBuffers buffers(cells);
     buffers.bind();
     const std::vector<Query> queries = Queries(cells, 11).take(kQueries);
-    const auto tree = search(queries, SiteSearch::tree);
-    const auto linear = search(queries, SiteSearch::linear);
-    std::uint32_t differences = 0;
-    for (std::uint32_t i = 0; i < kQueries; ++i) {
-      if (tree[i] != linear[i] || tree[i].y != 0) ++differences;
-    }
-    EXPECT_EQ(differences, 0U) << "of " << kQueries;
+    EXPECT_EQ(count_differences(search(queries, SiteSearch::tree), search(queries, SiteSearch::linear)), 0U)
+        << "of " << kQueries;
   }
+}
+
+// Points of the surfaces, a third of them on edges and corners, with interpolated normals and those of faces:
+// what paths ask for.
+std::vector<Query> surface_queries(const Scene& scene, std::uint32_t count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform;
+  std::vector<double> areas;
+  for (const Triangle& t : scene.triangles) areas.push_back(area_of(t));
+  std::discrete_distribution<std::size_t> by_area(areas.begin(), areas.end());
+  std::vector<Query> queries(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Query& q = queries[i];
+    const Triangle& t = scene.triangles[i % 2 == 1 ? by_area(random) : random() % scene.triangles.size()];
+    float u = uniform(random);
+    float v = uniform(random);
+    if (random() % 3 == 0) u = std::round(u);
+    if (u + v > 1) v = u > v ? 1 - u : v, u = std::min(u, 1 - v);
+    const glm::vec3 blend = (1 - u - v) * t.normal[0] + u * t.normal[1] + v * t.normal[2];
+    const glm::vec3 face(glm::normalize(area_vector(t.position)));
+    q.position =
+        glm::vec4(t.position[0] + u * (t.position[1] - t.position[0]) + v * (t.position[2] - t.position[0]),
+                  std::bit_cast<float>(t.object));
+    q.normal = glm::vec4(random() % 4 == 0 || glm::length(blend) < 1e-6F ? face : glm::normalize(blend), 0);
+  }
+  return queries;
+}
+
+// Returns the part of the scene's area where a list answers.
+double expect_lists_agree(const Scene& scene, RlSettings settings) {
+  constexpr std::uint32_t kSurfaceQueries = 1 << 17;
+  const gpu::Buffer block = bind_threshold(settings.cell_normal_threshold);
+  settings.site_search = SiteSearch::lists;
+  const CellBuffers buffers(scene, settings);
+  buffers.bind();
+  const std::vector<Query> queries = surface_queries(scene, kSurfaceQueries);
+  const auto lists = search(queries, SiteSearch::lists);
+  EXPECT_EQ(count_differences(lists, search(queries, SiteSearch::linear)), 0U) << "of " << kSurfaceQueries;
+  std::size_t listed = 0;
+  for (std::uint32_t i = 1; i < kSurfaceQueries; i += 2) listed += lists[i].z;
+  return static_cast<double>(listed) / (kSurfaceQueries / 2);
 }
 
 CellSites on_simple(SitePlacement placement, int sites) {
@@ -186,6 +241,26 @@ TEST(SiteSearch, OfFewSites) { expect_same_cells(scattered({0, 1, 2, 3, 0, 4, 5,
 
 TEST(SiteSearch, AmongNormalsOfAllDirections) { expect_same_cells(scattered({300, 1000})); }
 
+// More than a million queries in all.
+TEST(SiteSearch, ThroughListsOnTheShippedScene) {
+  const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
+  for (const SitePlacement placement : {SitePlacement::uv, SitePlacement::area}) {
+    for (const int sites : {10, 100, 1000}) {
+      SCOPED_TRACE(testing::Message() << sites << " sites, " << enum_name(placement));
+      RlSettings settings;
+      settings.site_placement = placement;
+      settings.sites_per_object = sites;
+      EXPECT_GT(expect_lists_agree(scene, settings), 0.97);
+    }
+  }
+  for (const double threshold : {-1.0, 0.5, 0.99}) {
+    SCOPED_TRACE(testing::Message() << "threshold " << threshold);
+    RlSettings settings;
+    settings.cell_normal_threshold = threshold;
+    EXPECT_GT(expect_lists_agree(scene, settings), 0.97);
+  }
+}
+
 // Six searches of 25,000 turns each would be cut; through the tree they are short.
 TEST(SiteSearch, TooLongALinearSearchIsRefused) {
   if (device().device().renderer.find("llvmpipe") == std::string::npos)
@@ -201,7 +276,7 @@ TEST(SiteSearch, TooLongALinearSearchIsRefused) {
     check_limits(device(), scene, settings);
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("choose rl.site_search tree"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("choose rl.site_search lists"), std::string::npos)
         << error.what();
   }
 }
