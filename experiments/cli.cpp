@@ -137,7 +137,8 @@ int dispatch(int argc, const char* const* argv) {
     return 0;
   }
   if (inspect->parsed()) {
-    fmt::print("{}", inspect_run(inspect_options));
+    Progress progress(Progress::detect(false));
+    fmt::print("{}", inspect_run(inspect_options, progress));
     return 0;
   }
   if (devices->parsed()) return command_devices();

@@ -145,7 +145,7 @@ std::string figures_text(const InspectedRun& run, glm::ivec2 pixel, int cell, co
 
 }  // namespace
 
-std::string inspect_run(const InspectOptions& options) {
+std::string inspect_run(const InspectOptions& options, Progress& progress) {
   const InspectedRun run = read_inspected_run(options.folder, options.frame);
   const RenderSettings& settings = run.config.render;
   const glm::ivec2 pixel = pixel_of(options, settings);
@@ -157,7 +157,12 @@ std::string inspect_run(const InspectOptions& options) {
   check(cell >= 0,
         "the centre of pixel {},{} shows no surface that belongs to a cell; choose another with --pixel",
         pixel.x, pixel.y);
-  const Hemisphere hemisphere = inspection.hemisphere(pixel, kHemisphereSize, options.samples);
+  constexpr double kWorkPerSample = double{kHemisphereSize} * kHemisphereSize;
+  progress.plan(kWorkPerSample * options.samples);
+  progress.begin("hemisphere", options.samples, kWorkPerSample);
+  const Hemisphere hemisphere = inspection.hemisphere(pixel, kHemisphereSize, options.samples,
+                                                      [&](int sample) { progress.step(sample); });
+  progress.end();
 
   const LearnedTable table(run.table, settings.rl);
   ExrImage cell_picture = cell_image(settings, cells, table);

@@ -1,6 +1,8 @@
 // `qtrace inspect`: pictures of what a run's table has learned, beside what is true.
 #pragma once
 
+#include "experiments/progress.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,6 @@ struct InspectOptions {
 //   channels);
 //                   the projection is described in engine/tracer/inspection.h
 // Throws Error that names what is wrong.
-std::string inspect_run(const InspectOptions& options);
+std::string inspect_run(const InspectOptions& options, Progress& progress);
 
 }  // namespace qtrace::experiments

@@ -132,7 +132,8 @@ std::vector<int> Inspection::pixel_cells() const {
   return output.read_all<int>();
 }
 
-Hemisphere Inspection::hemisphere(glm::ivec2 pixel, int size, int samples) const {
+Hemisphere Inspection::hemisphere(glm::ivec2 pixel, int size, int samples,
+                                  const std::function<void(int)>& after_each) const {
   const State& s = *state_;
   gpu::Defines defines = s.defines;
   defines["PIXEL_X"] = std::to_string(pixel.x);
@@ -147,6 +148,7 @@ Hemisphere Inspection::hemisphere(glm::ivec2 pixel, int size, int samples) const
     program.set_frame(static_cast<std::uint32_t>(sample));
     program.dispatch(tiles(size), tiles(size));
     sums.add(output.read_all<gpu::Incident>());
+    if (after_each) after_each(sample);
   }
   s.film.check_loops();
   return sums.means(size, output.read_all<gpu::Incident>());

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,7 +43,9 @@ class Inspection {
 
   // Path traced with BSDF sampling and one_ray, as many bounces as the run's and other random numbers, so
   // that it owes the table nothing. `pixel` must show a cell; `samples`: paths per pixel of the hemisphere.
-  Hemisphere hemisphere(glm::ivec2 pixel, int size, int samples) const;
+  // `after_each` is told how many are done.
+  Hemisphere hemisphere(glm::ivec2 pixel, int size, int samples,
+                        const std::function<void(int)>& after_each = {}) const;
 
  private:
   struct State;
