@@ -37,6 +37,16 @@ std::string floor_text(const Cell& cell) {
                                       : fmt::format("{} of {}", cell.at_reference_floor, cell.finished);
 }
 
+// "pass", or "fail 2, pass 3" where seeds differ.
+std::string verdict_text(const Cell& cell) {
+  std::string text;
+  for (const auto& [word, seeds] : cell.verdicts) {
+    text += text.empty() ? "" : ", ";
+    text += cell.verdicts.size() == 1 ? word : fmt::format("{} {}", word, seeds);
+  }
+  return text.empty() ? kNothing : text;
+}
+
 std::string published_text(const Experiment& experiment, const Cell& cell) {
   const double* ms = experiment.published.ms_per_frame.find(cell.name);
   return ms == nullptr ? kNothing : fmt::format("{:g}", *ms);
@@ -52,7 +62,7 @@ struct TableColumn {
   Text filtered = nothing_text;  // in the row of the filtered image
 };
 
-std::vector<TableColumn> table_columns(const Experiment& experiment, bool some_filter) {
+std::vector<TableColumn> table_columns(const Experiment& experiment, bool some_filter, bool some_verdict) {
   std::vector<TableColumn> columns{
       {"frames", frames_text, frames_text},
       {"seeds", seeds_text, seeds_text},
@@ -75,6 +85,7 @@ std::vector<TableColumn> table_columns(const Experiment& experiment, bool some_f
        {"fireflies / M samples", [](const Cell& cell) { return estimate_text(cell.fireflies_per_million); }},
        {"non-finite", [](const Cell& cell) { return std::to_string(cell.non_finite); }},
        {"at floor", floor_text}});
+  if (some_verdict) columns.push_back({"verdict", verdict_text});
   return columns;
 }
 
@@ -99,7 +110,9 @@ std::string cell_table(const Experiment& experiment, const std::vector<const Cel
   const std::vector<std::size_t> axes = row_axes(experiment);
   const bool some_filter =
       std::ranges::any_of(cells, [](const Cell* cell) { return cell->relmse_filtered.has_value(); });
-  const std::vector<TableColumn> columns = table_columns(experiment, some_filter);
+  const bool some_verdict =
+      std::ranges::any_of(cells, [](const Cell* cell) { return !cell->verdicts.empty(); });
+  const std::vector<TableColumn> columns = table_columns(experiment, some_filter, some_verdict);
   std::vector<std::string> header;
   for (const std::size_t axis : axes) header.push_back(experiment.axes[axis].name);
   if (axes.empty() && some_filter) header.emplace_back("image");

@@ -30,6 +30,7 @@ Cell make_cell(const Members& members) {
   for (const RunRecord* run : members) {
     cell.non_finite += run->totals().non_finite;
     cell.clamped_samples += run->totals().clamped_samples;
+    if (run->verdict) ++cell.verdicts[run->verdict->word];
     const ErrorMetrics* errors = run->final_errors();
     if (errors == nullptr) continue;
     finished.push_back(run);

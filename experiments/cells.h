@@ -4,6 +4,7 @@
 #include "experiments/records.h"
 #include "experiments/statistics.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ struct Cell {
   std::optional<Estimate> clamp_bias;
   std::uint64_t clamped_samples = 0;
   std::uint64_t non_finite = 0;
-  std::size_t at_reference_floor = 0;  // seeds
+  std::size_t at_reference_floor = 0;           // seeds
+  std::map<std::string, std::size_t> verdicts;  // seeds by word; empty where nothing was expected
 };
 
 // In the order of their first runs.

@@ -3,6 +3,7 @@
 
 #include "engine/core/filter_settings.h"
 #include "engine/core/settings.h"
+#include "experiments/expectation.h"
 #include "experiments/json_knobs.h"
 
 #include <cstdint>
@@ -30,6 +31,7 @@ struct ReferenceSettings {
   int frames = 1024;
   std::uint32_t seed = 9001;
   LightChoice lights = LightChoice::power;
+  std::string scene;
 };
 
 template <class Visitor>
@@ -45,6 +47,10 @@ void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
                  "how its next event estimation picks a light; learned: with the default table, said in "
                  "every table"},
         reference.lights);
+  visit(KnobInfo{"scene", "path",
+                 "glTF file that the reference shows, where that must look the same as the run's own scene; "
+                 "empty: the run's own"},
+        reference.scene);
 }
 
 // When the learned table is written into the run's folder (saved_table.h).
@@ -70,6 +76,7 @@ struct RunConfig {
   ReferenceSettings reference;
   double firefly_multiple = 100;
   FilterSettings filter;
+  Expectation expect;
 };
 
 template <class Visitor>
@@ -99,6 +106,8 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
       config.firefly_multiple);
   visit(KnobInfo{"filter", "", "an edge-avoiding filter of the snapshots, measured on its own: it is biased"},
         config.filter);
+  visit(KnobInfo{"expect", "", "what the run is judged by: a verdict in summary.csv, table and exit code"},
+        config.expect);
 }
 
 // Throws Error that names the key where values that are each allowed do not fit together.

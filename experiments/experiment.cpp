@@ -17,6 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool met_expectation(const RunRecord& record) {
+  return record.status == "finished" && !(record.verdict && record.verdict->word == "fail");
+}
+
 // The folder of an experiment that is running, rewritten after each run so that nothing is lost.
 class Journal {
  public:
@@ -42,14 +46,14 @@ class Journal {
     write();
   }
 
-  // Returns whether all runs finished.
+  // Returns whether all runs finished and met what was expected of them.
   bool close() {
     const bool all = std::all_of(records_.begin(), records_.end(),
                                  [](const RunRecord& record) { return record.status == "finished"; });
     manifest_["status"] = all ? "finished" : "failed";
     manifest_["ended"] = utc_now();
     write();
-    return all;
+    return std::all_of(records_.begin(), records_.end(), met_expectation);
   }
 
   std::string table() const {
@@ -63,6 +67,7 @@ class Journal {
       Json run{{"run", experiment_.runs[i].id},
                {"status", i < records_.size() ? records_[i].status : "waiting"}};
       if (i < records_.size() && !records_[i].reason.empty()) run["reason"] = records_[i].reason;
+      if (i < records_.size() && records_[i].verdict) run["verdict"] = records_[i].verdict->word;
       runs.push_back(std::move(run));
     }
     manifest_["runs"] = runs;
@@ -84,7 +89,7 @@ std::vector<ReferenceSpec> needed_references(const Experiment& experiment, Scene
   std::set<std::string> seen;
   std::vector<ReferenceSpec> specs;
   for (const Run& run : experiment.runs) {
-    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.scene_file(run)).hash);
+    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.reference_file(run)).hash);
     if (seen.insert(spec.hash).second) specs.push_back(std::move(spec));
   }
   return specs;
@@ -100,8 +105,11 @@ void plan_work(const Experiment& experiment, SceneStore& scenes, const fs::path&
 
 std::string result_line(const std::string& label, const RunRecord& record) {
   if (record.status != "finished") return fmt::format("{}: failed: {}", label, record.reason);
-  return fmt::format("{}: finished, {} frames in {:.3g} s, relMSE {:.3g}", label, record.frames.size(),
-                     record.elapsed_s(), record.final_errors()->relmse);
+  std::string line = fmt::format("{}: finished, {} frames in {:.3g} s, relMSE {:.3g}", label,
+                                 record.frames.size(), record.elapsed_s(), record.final_errors()->relmse);
+  if (record.verdict) line += ", verdict " + record.verdict->word;
+  if (record.verdict && !record.verdict->reason.empty()) line += ": " + record.verdict->reason;
+  return line;
 }
 
 }  // namespace
@@ -117,6 +125,7 @@ void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& pro
       const LoadedScene& scene = scenes.load(experiment.scene_file(run));
       for (const std::string& warning : scene.scene.warnings) say(scene.file.string() + ": " + warning);
       say(light_warning(scene, run.config));
+      scenes.load(experiment.reference_file(run));
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
     }
@@ -128,7 +137,8 @@ void check_device(const Experiment& experiment, const gpu::Context& context, Sce
     try {
       const LoadedScene& scene = scenes.load(experiment.scene_file(run));
       check_limits(context, scene.scene, run.config.render);
-      check_limits(context, scene.scene, reference_spec(run.config, scene.hash).settings);
+      const LoadedScene& shown = scenes.load(experiment.reference_file(run));
+      check_limits(context, shown.scene, reference_spec(run.config, shown.hash).settings);
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
     }
@@ -182,22 +192,23 @@ bool run_experiment(const Experiment& experiment, const gpu::Context& context, S
   for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
     const Run& run = experiment.runs[i];
     const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+    const LoadedScene& shown = scenes.load(experiment.reference_file(run));
     const auto reference = [&] {
-      return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
+      return references.get(reference_spec(run.config, shown.hash), shown, experiment.folder());
     };
     const std::string label = fmt::format("run {}/{} {}", i + 1, experiment.runs.size(), run.id);
-    RunRecord record =
-        execute_run({context, experiment, run, scene, reference, folder / run.id, label}, progress);
-    if (record.status == "finished") {
+    RunRecord record = execute_run(
+        {context, experiment, run, scene, shown.hash, reference, folder / run.id, label}, progress);
+    if (met_expectation(record)) {
       progress.note(result_line(label, record));
     } else {
       progress.warning(result_line(label, record));
     }
     journal.add(std::move(record));
   }
-  const bool all_finished = journal.close();
+  const bool all_good = journal.close();
   fmt::print("{}\nFiles: {}\n", journal.table(), folder.string());
-  return all_finished;
+  return all_good;
 }
 
 }  // namespace qtrace::experiments

@@ -27,7 +27,8 @@ std::optional<std::filesystem::path> move_aside(const std::filesystem::path& fol
 void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes);
 
 // Runs everything and writes results_root/<name>; earlier results of that name are moved aside. Prints the
-// table. Failed runs do not stop the others. Returns whether all runs finished.
+// table. Failed runs do not stop the others. Returns whether all runs finished
+// and none failed what was expected of it.
 bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,
                     const std::filesystem::path& results_root, Progress& progress);
 

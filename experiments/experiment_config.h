@@ -44,6 +44,10 @@ struct Experiment {
 
   std::filesystem::path folder() const { return file.parent_path(); }
   std::filesystem::path scene_file(const Run& run) const { return folder() / run.config.scene; }
+  // Of what the run's reference shows.
+  std::filesystem::path reference_file(const Run& run) const {
+    return folder() / (run.config.reference.scene.empty() ? run.config.scene : run.config.reference.scene);
+  }
 };
 
 // Reads and checks a config and all its runs. `sets` are "key=value": the value is JSON, or a text where

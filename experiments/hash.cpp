@@ -61,6 +61,7 @@ std::string config_hash(const RunConfig& config, const std::string& scene_hash) 
   Json json = write_knobs(config);
   json.erase("name");
   json.erase("save_table");
+  json.erase("expect");
   json["scene"] = scene_hash;
   return hash_text(canonical_text(json));
 }

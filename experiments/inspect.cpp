@@ -131,7 +131,7 @@ void check_shape(const InspectedRun& run, const Inspection& inspection) {
 
 std::string figures_text(const InspectedRun& run, glm::ivec2 pixel, int cell, const CellState& state,
                          const LearnedTable& table, const Agreement& agreement) {
-  const glm::vec3& p = state.position;
+  const glm::dvec3 p = glm::dvec3(state.position) + run.scene.scene.origin;
   return plain_table({"figure", "value"},
                      {{"pixel", fmt::format("{},{}", pixel.x, pixel.y)},
                       {"cell", fmt::format("{} of {}", cell, run.table.values.rows)},

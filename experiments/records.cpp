@@ -125,6 +125,19 @@ void add_outlier_columns(std::vector<Column<RunRecord>>& columns) {
       });
 }
 
+void add_verdict_columns(std::vector<Column<RunRecord>>& columns) {
+  const auto column = [&](const char* name, CsvValue (*value)(const Verdict&)) {
+    columns.push_back(
+        {name, [value](const RunRecord& row) { return row.verdict ? value(*row.verdict) : CsvValue(); }});
+  };
+  column("verdict", [](const Verdict& v) { return CsvValue(v.word); });
+  column("verdict_reason", [](const Verdict& v) { return CsvValue(v.reason); });
+  column("mean", [](const Verdict& v) { return CsvValue(v.mean); });
+  column("mean_error", [](const Verdict& v) { return CsvValue(v.mean_error); });
+  column("expected_mean", [](const Verdict& v) { return CsvValue(v.expected); });
+  column("worst_z", [](const Verdict& v) { return CsvValue(v.worst_z); });
+}
+
 // The moment that a row of convergence.csv and convergence_filtered.csv is about.
 std::vector<Column<SnapshotRecord>> moment_columns() {
   using R = SnapshotRecord;
@@ -202,6 +215,7 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
   add_filter_columns(columns);
   add_statistics_columns(columns, [](const R& row) { return row.totals(); });
   add_outlier_columns(columns);
+  add_verdict_columns(columns);
   columns.push_back({"reference_hash", [](const R& row) { return CsvValue(row.reference_hash); }});
   columns.push_back({"config_hash", [](const R& row) { return CsvValue(row.config_hash); }});
   return columns;

@@ -59,6 +59,7 @@ struct RunRecord {
   std::vector<FrameRecord> frames;
   std::vector<SnapshotRecord> snapshots;
   FireflyRecord fireflies;
+  std::optional<Verdict> verdict;  // nothing where nothing was expected or the run did not finish
 
   std::vector<double> host_ms() const;  // without warm-up frames
   std::vector<double> gpu_ms() const;

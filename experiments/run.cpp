@@ -21,6 +21,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Positions as the scene's file has them.
+FirstHitImage to_world(FirstHitImage image, const glm::dvec3& origin) {
+  for (std::size_t i = 0; i < image.position.size(); ++i) {
+    const bool is_hit = image.normal[i] != glm::vec3(0.0F);
+    if (is_hit) image.position[i] = glm::vec3(glm::dvec3(image.position[i]) + origin);
+  }
+  return image;
+}
+
 // A run in progress: its record, its manifest and its files, kept in step.
 class Execution {
  public:
@@ -41,13 +50,14 @@ class Execution {
     manifest_["device_bytes"] = tracer.device_bytes();
     for (const std::string& warning : tracer.warnings()) warn(warning, progress);
     const FirstHitImage first_hit = tracer.first_hit();
-    files_.write_first_hit(first_hit);
+    files_.write_first_hit(to_world(first_hit, job_.scene.scene.origin));
     if (config().filter.kind == FilterKind::atrous) {
       filter_.emplace(job_.context, first_hit, config().filter);
     }
     tracer.set_firefly_thresholds(firefly_thresholds(reference->image, config().firefly_multiple));
     if (saves_table()) prepare_table(tracer.table(), progress);
     render(tracer, *reference, progress);
+    judge_image(tracer.radiance(), *reference);
   }
 
   bool begun() const { return begun_; }
@@ -146,7 +156,7 @@ class Execution {
 
   void prepare_table(const QTable* table, Progress& progress) {
     if (table != nullptr) {
-      files_.write_cells(*table);
+      files_.write_cells(*table, job_.scene.scene.origin);
     } else {
       warn(fmt::format(
                "save_table is {}, but there is nothing to save: neither directions nor lights are learned",
@@ -182,6 +192,14 @@ class Execution {
     if (saves_table()) save_table(frame, tracer.table());
     files_.write_tables(record_);
     return next.errors.relmse;
+  }
+
+  void judge_image(const RadianceImage& image, const Reference& reference) {
+    const std::uint64_t non_finite = record_.totals().non_finite + reference.non_finite;
+    record_.verdict = judge(config().expect, image, reference.image, non_finite);
+    if (!record_.verdict) return;
+    manifest_["verdict"] = record_.verdict->word;
+    if (!record_.verdict->reason.empty()) manifest_["verdict_reason"] = record_.verdict->reason;
   }
 
   void note_non_finite(const Tracer& tracer, Progress& progress) {
@@ -222,7 +240,7 @@ RunRecord execute_run(const RunJob& job, Progress& progress) {
   record.scene = job.scene.scene.name;
   record.status = "running";
   record.config_hash = config_hash(job.run.config, job.scene.hash);
-  record.reference_hash = reference_spec(job.run.config, job.scene.hash).hash;
+  record.reference_hash = reference_spec(job.run.config, job.reference_scene_hash).hash;
   std::optional<Execution> execution;
   try {
     execution.emplace(job, record);

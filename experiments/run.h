@@ -19,6 +19,7 @@ struct RunJob {
   const Experiment& experiment;
   const Run& run;
   const LoadedScene& scene;
+  const std::string& reference_scene_hash;  // of what its reference shows
   std::function<std::shared_ptr<const Reference>()> get_reference;
   std::filesystem::path folder;  // made here
   std::string label;             // for the progress line

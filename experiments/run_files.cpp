@@ -21,8 +21,8 @@ void RunFiles::write_snapshot(int frame, const RadianceImage& image, const Radia
   write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), exr);
 }
 
-void RunFiles::write_cells(const QTable& table) const {
-  experiments::write_cells(folder_, table.cells().states());
+void RunFiles::write_cells(const QTable& table, const glm::dvec3& origin) const {
+  experiments::write_cells(folder_, table.cells().states(), origin);
 }
 
 void RunFiles::write_q_table(int frame, const QTable& table) const {

@@ -20,9 +20,9 @@ class RunFiles {
   void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const;
   // frames.csv, convergence.csv and, of a run with a filter, convergence_filtered.csv.
   void write_tables(const RunRecord& record) const;
-  void write_cells(const QTable& table) const;               // cells.npy
-  void write_q_table(int frame, const QTable& table) const;  // see saved_table.h
-  void write_manifest(const Json& manifest) const;           // manifest.json
+  void write_cells(const QTable& table, const glm::dvec3& origin) const;  // cells.npy
+  void write_q_table(int frame, const QTable& table) const;               // see saved_table.h
+  void write_manifest(const Json& manifest) const;                        // manifest.json
 
  private:
   std::filesystem::path folder_;

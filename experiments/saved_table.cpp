@@ -36,11 +36,12 @@ std::set<int> saved_frames(const fs::path& folder) {
 
 }  // namespace
 
-void write_cells(const fs::path& folder, const std::vector<CellState>& states) {
+void write_cells(const fs::path& folder, const std::vector<CellState>& states, const glm::dvec3& origin) {
   std::vector<float> rows;
   rows.reserve(states.size() * kCellColumns);
   for (const CellState& s : states) {
-    rows.insert(rows.end(), {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
+    const glm::vec3 p(glm::dvec3(s.position) + origin);
+    rows.insert(rows.end(), {p.x, p.y, p.z, s.normal.x, s.normal.y, s.normal.z,
                              s.object == kNoObject ? -1.0F : static_cast<float>(s.object)});
   }
   write_npy<float>(folder / "cells.npy", kCellColumns, rows);

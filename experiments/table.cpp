@@ -85,6 +85,15 @@ std::string failure_lines(const std::vector<RunRecord>& records) {
   return lines.empty() ? lines : "\nFailed runs:\n" + lines;
 }
 
+std::string verdict_lines(const std::vector<RunRecord>& records) {
+  std::string lines;
+  for (const RunRecord& record : records) {
+    if (!record.verdict || record.verdict->reason.empty()) continue;
+    lines += fmt::format("- {}: {}\n", record.run.id, record.verdict->reason);
+  }
+  return lines.empty() ? lines : "\nRuns that are not as expected:\n" + lines;
+}
+
 std::string notes(const Experiment& experiment) {
   std::string text = "\n" + timing_note() + "\n\n";
   const bool seeds = std::any_of(experiment.axes.begin(), experiment.axes.end(),
@@ -123,7 +132,8 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
     text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
             clamping_lines(rows);
   }
-  return text + failure_lines(records) + reference_lines(references) + notes(experiment);
+  return text + failure_lines(records) + verdict_lines(records) + reference_lines(references) +
+         notes(experiment);
 }
 
 }  // namespace qtrace::experiments

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace .glb.
+"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace .glb and hard/*.glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
 metres, y is up, colours are linear.
@@ -10,8 +10,10 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
+from typing import Any
 
 from gltf_writer import Camera, Material, Object, write_glb
+from hard import CAMERA as HARD_CAMERA, five_million, hard_scenes
 from models import head, teapot
 from rooms import CAMERA as HOUSE_CAMERA, many_lights
 from shapes import Vec, box, rectangle
@@ -133,21 +135,33 @@ def furnace() -> list[Object]:
     ]
 
 
+def write(file: Path, camera: Camera, objects: list[Object], above: dict[str, Any] | None = None) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    size = write_glb(file, file.stem, camera, objects, above)
+    triangles = sum(len(o.mesh.triangles) for o in objects)
+    print(f"{file.name}: {len(objects)} objects, {triangles} triangles, {size} bytes")
+
+
 def main() -> None:
     here = Path(__file__).resolve().parent
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=here, help="folder to write to")
-    out: Path = parser.parse_args().out
-    out.mkdir(parents=True, exist_ok=True)
+    parser.add_argument("--five-million", action="store_true",
+                        help="write hard/five_million.glb alone: 5 million triangles, 144 MB")
+    options = parser.parse_args()
+    out: Path = options.out
+    if options.five_million:
+        write(out / "hard/five_million.glb", HARD_CAMERA, five_million())
+        return
     for name, camera, objects in (
             ("simple", ROOM_CAMERA, simple()),
             ("occluded", ROOM_CAMERA, occluded()),
             ("cornell_box", CORNELL_CAMERA, cornell_box()),
             ("many_lights", HOUSE_CAMERA, many_lights()),
             ("furnace", FURNACE_CAMERA, furnace())):
-        size = write_glb(out / f"{name}.glb", name, camera, objects)
-        triangles = sum(len(o.mesh.triangles) for o in objects)
-        print(f"{name}.glb: {len(objects)} objects, {triangles} triangles, {size} bytes")
+        write(out / f"{name}.glb", camera, objects)
+    for name, (camera, objects, above) in hard_scenes().items():
+        write(out / "hard" / f"{name}.glb", camera, objects, above)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Writes a scene of plain Lambertian objects as a glTF 2.0 binary file."""
+"""Writes a scene of plain objects as a glTF 2.0 binary file."""
 
 from __future__ import annotations
 
@@ -19,20 +19,22 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 @dataclass(frozen=True)
 class Material:
-    """Diffuse reflectance (linear RGB) and one-sided emission (W / (sr m^2))."""
+    """Reflectance (linear RGB) and one-sided emission (W / (sr m^2)); Lambert unless it has a specular lobe."""
 
     name: str
     reflectance: Sequence[float]
     radiance: Sequence[float] = (0.0, 0.0, 0.0)
+    metallic: float = 0
+    roughness: float = 1
+    specular: float = 0
 
     def to_json(self) -> dict[str, Any]:
-        """No metal, full roughness, no specular lobe: what is left is Lambert."""
-        extensions: dict[str, Any] = {"KHR_materials_specular": {"specularFactor": 0}}
+        extensions: dict[str, Any] = {"KHR_materials_specular": {"specularFactor": self.specular}}
         result: dict[str, Any] = {
             "name": self.name,
             "pbrMetallicRoughness": {
                 "baseColorFactor": [*self.reflectance, 1],
-                "metallicFactor": 0, "roughnessFactor": 1},
+                "metallicFactor": self.metallic, "roughnessFactor": self.roughness},
         }
         strength = max(self.radiance)
         if strength > 0:
@@ -117,21 +119,27 @@ def _primitive(buffer: _Buffer, mesh: Mesh, material: int) -> dict[str, Any]:
         "material": material}
 
 
-def write_glb(path: Path, name: str, camera: Camera, objects: Sequence[Object]) -> int:
-    """Writes the scene and returns the file's size in bytes."""
+def write_glb(path: Path, name: str, camera: Camera, objects: Sequence[Object],
+              above: dict[str, Any] | None = None) -> int:
+    """Writes the scene and returns the file's size in bytes; `above`: transform of a node over all others."""
     buffer = _Buffer()
     materials = list(dict.fromkeys(o.material for o in objects))
     meshes = [{"name": o.name, "primitives": [
         _primitive(buffer, o.mesh, materials.index(o.material))]} for o in objects]
     nodes = [{"name": o.name, **o.transform, "mesh": i} for i, o in enumerate(objects)]
+    nodes.append(camera.node())
+    roots = list(range(len(nodes)))
+    if above:
+        nodes.append({"name": "all", **above, "children": roots})
+        roots = [len(nodes) - 1]
     described = [material.to_json() for material in materials]
     document = {
         "asset": {"version": "2.0", "generator": "qtrace scene generator",
                   "copyright": "CC0-1.0"},
         "extensionsUsed": sorted({e for m in described for e in m["extensions"]}),
         "scene": 0,
-        "scenes": [{"name": name, "nodes": list(range(len(nodes) + 1))}],
-        "nodes": [*nodes, camera.node()],
+        "scenes": [{"name": name, "nodes": roots}],
+        "nodes": nodes,
         "cameras": [camera.to_json()],
         "materials": described,
         "meshes": meshes,

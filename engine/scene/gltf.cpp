@@ -2,12 +2,14 @@
 
 #include "engine/scene/gltf_buffer.h"
 #include "engine/scene/gltf_camera.h"
+#include "engine/scene/gltf_duplicates.h"
 #include "engine/scene/gltf_features.h"
 #include "engine/scene/gltf_file.h"
 #include "engine/scene/gltf_json.h"
 #include "engine/scene/gltf_material.h"
 #include "engine/scene/gltf_mesh.h"
 #include "engine/scene/gltf_node.h"
+#include "engine/scene/gltf_origin.h"
 
 #include <algorithm>
 
@@ -52,9 +54,11 @@ Scene load_gltf(const std::filesystem::path& file) {
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = gltf::read_materials(source);
-  const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(source);
+  std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(source);
+  scene.origin = gltf::centre_nodes(source, nodes);
   scene.camera = gltf::read_camera(source, nodes);
   gltf::add_objects(source, nodes, scene);
+  gltf::drop_duplicates(source, scene);
   scene.warnings = std::move(source.warnings);
   return scene;
 }

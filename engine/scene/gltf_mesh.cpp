@@ -89,8 +89,8 @@ void ObjectBuilder::skip_primitive(const Primitive& primitive, const std::string
 void ObjectBuilder::warn_of_losses(const Losses& losses, const std::string& place) {
   const std::size_t corners = 3 * (losses.triangles - losses.flat_triangles);
   if (losses.flat_triangles > 0) {
-    source_.warn("{}: dropped {} of {} triangles for having no area", place, losses.flat_triangles,
-                 losses.triangles);
+    source_.warn("{}: dropped {} of {} triangles for having no area: {}", place, losses.flat_triangles,
+                 losses.triangles, losses.flat_names);
   }
   if (losses.zero_normals > 0) {
     source_.warn("{}: took the face's normal at {} of {} corners, where the file's has length zero", place,

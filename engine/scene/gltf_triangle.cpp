@@ -45,7 +45,7 @@ std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::s
   const glm::dvec3 area = area_vector(triangle.position);
   const double twice_area = glm::length(area);
   if (!has_area(triangle.position, twice_area)) {
-    ++losses_.flat_triangles;
+    note_flat(primitive, index);
     return std::nullopt;
   }
   const glm::dvec3 face_normal = area / twice_area;
@@ -54,6 +54,17 @@ std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::s
     if (primitive.has_uv()) triangle.uv[i] = primitive.uv(source_, vertices[i]);
   }
   return triangle;
+}
+
+void TrianglePlacer::note_flat(const Primitive& primitive, std::size_t index) {
+  constexpr std::size_t kNamed = 4;
+  if (losses_.flat_triangles < kNamed) {
+    losses_.flat_names +=
+        fmt::format("{}triangle {} of {}", losses_.flat_triangles == 0 ? "" : ", ", index, primitive.place());
+  } else if (losses_.flat_triangles == kNamed) {
+    losses_.flat_names += ", and more";
+  }
+  ++losses_.flat_triangles;
 }
 
 glm::vec3 TrianglePlacer::world_position(const Primitive& primitive, std::uint32_t vertex) const {

@@ -17,6 +17,7 @@ namespace qtrace::gltf {
 struct Losses {
   std::size_t triangles = 0;       // all, with those that are lost
   std::size_t flat_triangles = 0;  // without area, and dropped
+  std::string flat_names;          // of the first few
   std::size_t zero_normals = 0;
   std::size_t opposed_normals = 0;  // not on the front side of their triangle
 };
@@ -32,6 +33,7 @@ class TrianglePlacer {
   const Losses& losses() const { return losses_; }
 
  private:
+  void note_flat(const Primitive& primitive, std::size_t index);
   glm::vec3 world_position(const Primitive& primitive, std::uint32_t vertex) const;
   glm::vec3 world_normal(const Primitive& primitive, std::uint32_t vertex, const glm::dvec3& face_normal);
 

@@ -63,6 +63,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;
   Camera camera;
+  glm::dvec3 origin{0.0};  // of positions here, in the file's world; other than zero far from there
   std::vector<std::string> warnings;  // what the file holds and the tracer does not model, one sentence each
 };
 

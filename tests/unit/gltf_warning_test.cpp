@@ -61,7 +61,9 @@ TEST_F(GltfWarningTest, DropsTrianglesWithoutArea) {
       gltf.primitive({1, 1, 1, 2, 2, 2, 3, 3, 3}),
       gltf.primitive({5, 0, 0, 5, 0, 0, 5, 1, 0}),
   };
-  expect_warning("object 'thing': dropped 3 of 4 triangles for having no area");
+  expect_warning(
+      "object 'thing': dropped 3 of 4 triangles for having no area: triangle 0 of mesh 'shape' primitive 1, "
+      "triangle 0 of mesh 'shape' primitive 2, triangle 0 of mesh 'shape' primitive 3");
   EXPECT_EQ(load().objects.at(0).triangle_count, 1U);
   EXPECT_EQ(load().triangles.size(), 1U);
 }
@@ -75,7 +77,8 @@ TEST_F(GltfWarningTest, OmitsObjectsWithoutTriangles) {
   EXPECT_EQ(scene.objects[0].name, "solid");
   EXPECT_EQ(scene.triangles.at(0).object, 0U);
   EXPECT_EQ(scene.warnings,
-            (std::vector<std::string>{"object 'thing': dropped 1 of 1 triangles for having no area",
+            (std::vector<std::string>{"object 'thing': dropped 1 of 1 triangles for having no area: "
+                                      "triangle 0 of mesh 'shape' primitive 0",
                                       "object 'thing' has no triangles and is omitted"}));
 }
 
