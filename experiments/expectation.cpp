@@ -74,6 +74,11 @@ class Judge {
     if (expect_.against == Against::mean) {
       verdict_.expected = expect_.mean;
       compare(whole, {expect_.mean, 0}, areas[0].name, "the known mean");
+      // No radiance is negative: chance cannot explain any light at all.
+      if (expect_.mean == 0 && whole.mean > 0) {
+        verdict_.worst_z = std::numeric_limits<double>::infinity();
+        verdict_.reason = fmt::format("the mean of the image is {:.6g} where no light can be", whole.mean);
+      }
     }
     for (const Area& area : areas) {
       compare(mean_of(image_, area), mean_of(reference_, area), area.name, "the reference");

@@ -2,6 +2,7 @@
 // Adds a frame's samples to the sums of their pixels, and its counts to the statistics.
 #include "scene.glsl"
 #include "statistics.glsl"
+#include "pixel_sum.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_SAMPLES) restrict readonly buffer SampleBuffer { PixelSample samples[]; };
@@ -9,16 +10,6 @@ layout(std430, binding = BINDING_SUMS) restrict buffer SumBuffer { PixelSum sums
 layout(std430, binding = BINDING_OUTLIERS) restrict buffer OutlierBuffer { PixelOutliers outliers[]; };
 
 shared uint group_counts[STATISTIC_PER_FRAME];
-
-void add_sample(uint index, vec3 radiance) {
-  dvec3 x = dvec3(radiance);
-  sums[index].r += x.r;
-  sums[index].g += x.g;
-  sums[index].b += x.b;
-  sums[index].r_squared += x.r * x.r;
-  sums[index].g_squared += x.g * x.g;
-  sums[index].b_squared += x.b * x.b;
-}
 
 void judge_firefly(uint index, vec3 radiance) {
   float brightness = average(radiance);
@@ -63,7 +54,7 @@ void main() {
     bool finite = is_finite(radiance.r) && is_finite(radiance.g) && is_finite(radiance.b);
     if (finite) {
       judge_firefly(index, radiance);
-      add_sample(index, clamped(index, radiance));
+      sums[index] = with_sample(sums[index], clamped(index, radiance));
     }
     else report_non_finite(uvec2(index % parameters.image.x, index / parameters.image.x), frame_number);
     count_sample(samples[index].counts, radiance == vec3(0.0));

@@ -91,9 +91,9 @@ def furnace(albedo: float) -> list[Object]:
 
 
 def grazing() -> list[Object]:
-    """A strip of light, 5 cm high, that stands on the edge of a floor of 4 m."""
+    """A strip of light, 20 cm high, that stands on the edge of a floor of 4 m."""
     return [sheet("floor", GREY, (0, 0, 0), (2, 0, 0), (0, 0, -2)),
-            sheet("light", Material("light", (0, 0, 0), (20, 20, 20)), (0, 0.025, -2), (2, 0, 0), (0, 0.025, 0))]
+            sheet("light", Material("light", (0, 0, 0), (20, 20, 20)), (0, 0.1, -2), (2, 0, 0), (0, 0.1, 0))]
 
 
 def tiny_light() -> list[Object]:
@@ -116,7 +116,7 @@ def hard_scenes() -> Scenes:
     dark = [o for o in plain if o.name != "light"]
     inside = Camera(eye=(0, 0, 0), target=(0.3, 0.2, -1), vertical_fov=68)
     outside = Camera(eye=(0, 1, 4), target=(0, 0, 0), vertical_fov=50)
-    along = Camera(eye=(0, 0.6, 2.2), target=(0, 0, -0.6), vertical_fov=60)
+    along = Camera(eye=(0, 0.8, 1.2), target=(0, 0, -1), vertical_fov=55)
     far = {"translation": [10000, 0, 0]}
     glossy = {"light": GLOSSY_LIGHT, "half_light": 0.6}
     return {
