@@ -10,10 +10,10 @@ struct Node {
 };
 
 // In the order of the leaves; what an intersection test reads.
-struct TriangleShape {
-  vec4 vertex;  // xyz: first vertex
-  vec4 edge1;   // xyz: second vertex - first
-  vec4 edge2;   // xyz: third vertex - first
+struct TriangleShape {  // vertices, as the neighbours have them to the bit
+  vec4 vertex0;
+  vec4 vertex1;
+  vec4 vertex2;
 };
 
 // In the same order; what a hit reads.

@@ -11,12 +11,15 @@ struct Surface {
   uint light;
   uint material;
   float offset;           // length by which rays leave the surface
+  vec3 inwards;           // towards the middle of the triangle, about unit length
 };
 
 Surface surface_at(Hit hit, vec3 direction) {
-  vec3 v0 = shapes[hit.triangle].vertex.xyz;
-  vec3 edge1 = shapes[hit.triangle].edge1.xyz;
-  vec3 edge2 = shapes[hit.triangle].edge2.xyz;
+  vec3 v0 = shapes[hit.triangle].vertex0.xyz;
+  vec3 v1 = shapes[hit.triangle].vertex1.xyz;
+  vec3 v2 = shapes[hit.triangle].vertex2.xyz;
+  vec3 edge1 = v1 - v0;
+  vec3 edge2 = v2 - v0;
   vec4 n0 = shades[hit.triangle].normal0;
   vec4 n1 = shades[hit.triangle].normal1;
   vec4 n2 = shades[hit.triangle].normal2;
@@ -40,15 +43,16 @@ Surface surface_at(Hit hit, vec3 direction) {
   // Where an interpolated normal faces away from the ray, the geometric one is used.
   if (side * dot(s.mesh_normal, direction) >= 0.0) s.mesh_normal = face;
   s.normal = side * s.mesh_normal;
-  vec3 reach = max(abs(v0), max(abs(v0 + edge1), abs(v0 + edge2)));
-  s.offset = OFFSET_FRACTION * max_component(reach);
+  s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));
+  s.inwards = scale * ((edge1 + edge2) * (1.0 / 3.0) - (s.position - v0));
   return s;
 }
 
-// Where a ray towards `direction` starts: off the surface on the side that it leaves to.
+// Where a ray towards `direction` starts: off the surface on the side that it leaves to, and off the triangle's
+// edges, where rounding may have put the point on or behind a wall that meets this one there.
 vec3 ray_origin(Surface s, vec3 direction) {
   float side = dot(s.geometric_normal, direction) < 0.0 ? -1.0 : 1.0;
-  return s.position + side * s.offset * s.geometric_normal;
+  return s.position + s.offset * (side * s.geometric_normal + s.inwards);
 }
 
 // Radiance that the surface emits towards its viewer; from the front face, unless double-sided.

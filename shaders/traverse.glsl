@@ -25,19 +25,49 @@ bool meets_box(vec3 origin, vec3 inverse, vec3 lo, vec3 hi, float t_max) {
   return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, t_max));
 }
 
-// Moeller & Trumbore 1997. Either side is hit; t in (0, hit.t).
-void test_triangle(vec3 origin, vec3 direction, uint triangle, inout Hit hit) {
-  vec3 edge1 = shapes[triangle].edge1.xyz;
-  vec3 edge2 = shapes[triangle].edge2.xyz;
-  vec3 p = cross(direction, edge2);
-  float inverse_det = 1.0 / dot(edge1, p);
-  vec3 s = origin - shapes[triangle].vertex.xyz;
-  float u = dot(s, p) * inverse_det;
-  vec3 q = cross(s, edge1);
-  float v = dot(direction, q) * inverse_det;
-  float t = dot(edge2, q) * inverse_det;
-  // A parallel ray gives infinities or NaN, for which a comparison here is false.
-  if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < hit.t) hit = Hit(t, triangle, vec2(u, v));
+// A space in which the ray is the z axis, and t is z: Woop, Benthin & Wald 2013, "Watertight Ray/Triangle
+// Intersection", JCGT 2(1).
+struct Shear {
+  uint axis;   // the largest of the direction's components, which becomes z
+  vec3 slope;  // x / z and y / z of the direction, and 1 / z
+};
+
+vec3 turned(vec3 v, uint axis) {
+  return axis == 0u ? v.yzx : axis == 1u ? v.zxy : v;
+}
+
+Shear shear_of(vec3 direction) {
+  vec3 size = abs(direction);
+  uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+  vec3 d = turned(direction, axis);
+  return Shear(axis, vec3(d.x, d.y, 1.0) / d.z);
+}
+
+// To the bit the same for every triangle that has this vertex.
+vec3 sheared(vec3 vertex, vec3 origin, Shear shear) {
+  vec3 p = turned(vertex - origin, shear.axis);
+  precise float x = p.x - shear.slope.x * p.z;
+  precise float y = p.y - shear.slope.y * p.z;
+  return vec3(x, y, p.z * shear.slope.z);
+}
+
+// Twice the signed area of the origin, p and q: exactly the negative where q and p change places.
+float edge_function(vec3 p, vec3 q) {
+  precise float area = p.x * q.y - p.y * q.x;
+  return area;
+}
+
+// Either side is hit, edges and corners included, so that no ray passes between neighbours; t in (0, hit.t).
+void test_triangle(vec3 origin, Shear shear, uint triangle, inout Hit hit) {
+  vec3 a = sheared(shapes[triangle].vertex0.xyz, origin, shear);
+  vec3 b = sheared(shapes[triangle].vertex1.xyz, origin, shear);
+  vec3 c = sheared(shapes[triangle].vertex2.xyz, origin, shear);
+  vec3 weights = vec3(edge_function(c, b), edge_function(a, c), edge_function(b, a));
+  bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessThanEqual(weights, vec3(0.0)));
+  weights /= weights.x + weights.y + weights.z;
+  float t = dot(weights, vec3(a.z, b.z, c.z));
+  // A triangle that is seen edge on gives infinities or NaN, for which a comparison here is false.
+  if (inside && t > 0.0 && t < hit.t) hit = Hit(t, triangle, weights.yz);
 }
 
 // Walks to the next leaf whose box the ray meets and returns its packed range of triangles; 0 at the end.
@@ -63,6 +93,7 @@ uint next_leaf(vec3 origin, vec3 inverse, float t_max, inout uint node) {
 
 void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
   vec3 inverse = safe_inverse(direction);
+  Shear shear = shear_of(direction);
   uint node = 0u;
   bool searching = true;
   do {
@@ -71,7 +102,7 @@ void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
     uint end = triangle + (leaf & ((1u << LEAF_BITS) - 1u));
     bool more = triangle < end;
     do {
-      if (more) test_triangle(origin, direction, triangle, hit);
+      if (more) test_triangle(origin, shear, triangle, hit);
       ++triangle;
       more = more && triangle < end;
     } while (more);

@@ -34,7 +34,7 @@ std::vector<TriangleShape> pack_shapes(const Scene& scene, const Bvh& bvh) {
   shapes.reserve(bvh.order.size());
   for (const uint i : bvh.order) {
     const auto& p = scene.triangles[i].position;
-    shapes.push_back({vec4(p[0], 0), vec4(p[1] - p[0], 0), vec4(p[2] - p[0], 0)});
+    shapes.push_back({vec4(p[0], 0), vec4(p[1], 0), vec4(p[2], 0)});
   }
   return shapes;
 }

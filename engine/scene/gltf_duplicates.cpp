@@ -26,8 +26,13 @@ struct Duplicate {
   std::uint32_t original;  // before it, and kept
 };
 
-// Ordered by triangle.
-std::vector<Duplicate> find_duplicates(const std::vector<Triangle>& triangles) {
+bool emits(const Scene& scene, std::uint32_t triangle) {
+  return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
+}
+
+// Pairs of which one emits at least, ordered by triangle.
+std::vector<Duplicate> find_duplicates(const Scene& scene) {
+  const std::vector<Triangle>& triangles = scene.triangles;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   keys.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -45,7 +50,7 @@ std::vector<Duplicate> find_duplicates(const std::vector<Triangle>& triangles) {
     });
     if (original == kept.end()) {
       kept.push_back(triangle);
-    } else {
+    } else if (emits(scene, triangle) || emits(scene, *original)) {
       duplicates.push_back({triangle, *original});
     }
   }
@@ -126,7 +131,7 @@ void remove(Scene& scene, const std::vector<Duplicate>& duplicates) {
 }  // namespace
 
 void drop_duplicates(Source& source, Scene& scene) {
-  const std::vector<Duplicate> duplicates = find_duplicates(scene.triangles);
+  const std::vector<Duplicate> duplicates = find_duplicates(scene);
   if (duplicates.empty()) return;
   check_emission(source, scene, duplicates);
   warn_of(source, scene, duplicates);

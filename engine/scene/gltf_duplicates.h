@@ -1,4 +1,4 @@
-// Triangles that lie exactly on others.
+// Emitting triangles that lie exactly on others.
 #pragma once
 
 #include "engine/scene/gltf_source.h"
@@ -6,9 +6,10 @@
 
 namespace qtrace::gltf {
 
-// Of triangles with the same three corners, in any order, keeps the first and warns of the others. Which of
-// them a ray meets would be a matter of rounding, and light sampling would count each. Error that names both
-// where they do not emit alike, so that light would be lost.
+// Of emitting triangles with the same three corners, in any order, keeps the first and warns of the others:
+// light sampling would count each, and which of them a ray meets would be a matter of rounding. Error that
+// names both where two do not emit alike, so that one would hide the other's light. Those that do not emit
+// stay: solids that touch have them, and they take no light from one another.
 void drop_duplicates(Source& source, Scene& scene);
 
 }  // namespace qtrace::gltf

@@ -1,4 +1,4 @@
-// Triangles that lie exactly on others, and scenes far from their origin.
+// Emitters that lie exactly on others, and scenes far from their origin.
 #include "tests/unit/gltf_builder.h"
 
 namespace qtrace {
@@ -6,9 +6,10 @@ namespace {
 
 class GltfDuplicates : public GltfTest {
  protected:
-  // A second node with the first one's corners, in the order of `corners`, and a material of its own.
-  void add_second(const std::vector<float>& corners, const nlohmann::json& material) {
-    gltf.json["materials"] = {{{"name", "first"}}, material};
+  // A second node with the first one's corners, in the order of `corners`; each has a material of its own.
+  void add_second(const std::vector<float>& corners, const nlohmann::json& first,
+                  const nlohmann::json& second) {
+    gltf.json["materials"] = {first, second};
     gltf.primitive_json()["material"] = 0;
     nlohmann::json primitive = gltf.primitive(corners);
     primitive["material"] = 1;
@@ -18,6 +19,7 @@ class GltfDuplicates : public GltfTest {
   const std::vector<float> same{0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::vector<float> rotated{1, 0, 0, 0, 1, 0, -0.0F, 0, 0};
   const std::vector<float> turned{0, 0, 0, 0, 1, 0, 1, 0, 0};
+  const nlohmann::json plain{{"name", "plain"}};
   const nlohmann::json glow{{"name", "glow"}, {"emissiveFactor", {1, 1, 1}}};
 };
 
@@ -26,10 +28,10 @@ constexpr const char* kDropped =
     "object 'second', about (0.3333, 0.3333, 0), on triangle 0 of object 'thing'";
 
 TEST_F(GltfDuplicates, OnlyTheFirstIsKeptWhateverTheOrderOfItsCorners) {
-  for (const auto& corners : {same, rotated, turned}) {
+  for (const auto& corners : {same, rotated}) {
     gltf = GltfBuilder();
     gltf.add_triangle();
-    add_second(corners, {{"name", "other"}});
+    add_second(corners, glow, glow);
     const Scene scene = load();
     EXPECT_EQ(scene.warnings, std::vector<std::string>{kDropped});
     ASSERT_EQ(scene.triangles.size(), 1U);
@@ -44,6 +46,9 @@ TEST_F(GltfDuplicates, ObjectsKeepTheirOtherTriangles) {
   gltf.add_triangle();
   const auto mesh =
       gltf.add_mesh({gltf.primitive(rotated), gltf.primitive({0, 0, 5, 1, 0, 5, 0, 1, 5})}, "two");
+  for (auto& primitive : gltf.json["meshes"][1]["primitives"]) primitive["material"] = 0;
+  gltf.primitive_json()["material"] = 0;
+  gltf.json["materials"] = {glow};
   gltf.add_node({{"name", "gone"}, {"mesh", 0}});
   gltf.add_node({{"name", "two"}, {"mesh", mesh}});
   const Scene scene = load();
@@ -57,11 +62,13 @@ TEST_F(GltfDuplicates, ObjectsKeepTheirOtherTriangles) {
   EXPECT_EQ(scene.warnings.size(), 2U);
 }
 
-TEST_F(GltfDuplicates, ADoubledEmitterEmitsOnce) {
+// Solids that touch share faces; nothing of the image depends on them.
+TEST_F(GltfDuplicates, WhatDoesNotEmitStays) {
   gltf.add_triangle();
-  add_second(rotated, glow);
-  gltf.json["materials"][0] = glow;
-  EXPECT_EQ(load().triangles.size(), 1U);
+  add_second(turned, plain, plain);
+  const Scene scene = load();
+  EXPECT_EQ(scene.triangles.size(), 2U);
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 // Where one would hide the light of the other, the scene is refused, and both are named.
@@ -70,17 +77,18 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
       "triangle 0 of object 'thing' and triangle 0 of object 'second', about (0.3333, 0.3333, 0)",
       "have the same corners but do not emit alike; only one of them would be right"};
   gltf.add_triangle();
-  add_second(same, glow);
+  add_second(same, plain, glow);
   expect_error(message);
-  gltf.json["materials"][0] = glow;
+  gltf.json["materials"] = {glow, plain};
+  expect_error(message);
+  gltf.json["materials"] = {glow, glow};
   EXPECT_EQ(load().triangles.size(), 1U);
   gltf.json["materials"][0]["doubleSided"] = true;
   expect_error(message);
   // Both shine, but to different sides.
   gltf = GltfBuilder();
   gltf.add_triangle();
-  add_second(turned, glow);
-  gltf.json["materials"][0] = glow;
+  add_second(turned, glow, glow);
   expect_error(message);
   gltf.json["materials"][0]["doubleSided"] = gltf.json["materials"][1]["doubleSided"] = true;
   EXPECT_EQ(load().triangles.size(), 1U);
@@ -89,10 +97,10 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
 // Two corners in common are no duplicate.
 TEST_F(GltfDuplicates, NeighboursStay) {
   gltf.add_triangle();
-  add_second({0, 0, 0, 1, 0, 0, 0, 1.0001F, 0}, {{"name", "other"}});
-  const Scene scene = load();
-  EXPECT_EQ(scene.triangles.size(), 2U);
-  EXPECT_TRUE(scene.warnings.empty());
+  add_second({
+    0, 0, 0, 1, 0, XX const Scene scene = load();
+    EXPECT_EQ(scene.triangles.size(), 2U);
+    EXPECT_TRUE(scene.warnings.empty());
 }
 
 using GltfOrigin = GltfTest;
@@ -100,27 +108,27 @@ using GltfOrigin = GltfTest;
 // At 10,000 a float resolves a thousandth: moved to the origin first, a triangle of a thousandth keeps its
 // shape.
 TEST_F(GltfOrigin, FarScenesAreMovedAboutTheOrigin) {
-  gltf.add_triangle();
-  gltf.json["nodes"][0]["translation"] = {10000, 0, 0.002};
-  gltf.json["nodes"][1]["translation"] = {10000, 0, 0};
-  gltf.json["nodes"][1]["scale"] = {0.001, 0.001, 0.001};
-  const Scene scene = load();
-  EXPECT_NEAR(scene.origin.x, 10000.0005, 1e-9);
-  EXPECT_NEAR(scene.origin.y, 0.0005, 1e-9);
-  const auto& p = scene.triangles.at(0).position;
-  EXPECT_NEAR(double{p[1].x} - p[0].x, 0.001, 1e-9);
-  EXPECT_NEAR(p[0].x, -0.0005, 1e-9);
-  EXPECT_NEAR(p[2].y, 0.0005, 1e-9);
-  EXPECT_NEAR(scene.camera.world_from_camera[3].x, -0.0005, 1e-9);
-  EXPECT_NEAR(scene.camera.world_from_camera[3].z, 0.002, 1e-9);
+    gltf.add_triangle();
+    gltf.json["nodes"][0]["translation"] = {10000, 0, 0.002};
+    gltf.json["nodes"][1]["translation"] = {10000, 0, 0};
+    gltf.json["nodes"][1]["scale"] = {0.001, 0.001, 0.001};
+    const Scene scene = load();
+    EXPECT_NEAR(scene.origin.x, 10000.0005, 1e-9);
+    EXPECT_NEAR(scene.origin.y, 0.0005, 1e-9);
+    const auto& p = scene.triangles.at(0).position;
+    EXPECT_NEAR(double{p[1].x} - p[0].x, 0.001, 1e-9);
+    EXPECT_NEAR(p[0].x, -0.0005, 1e-9);
+    EXPECT_NEAR(p[2].y, 0.0005, 1e-9);
+    EXPECT_NEAR(scene.camera.world_from_camera[3].x, -0.0005, 1e-9);
+    EXPECT_NEAR(scene.camera.world_from_camera[3].z, 0.002, 1e-9);
 }
 
 TEST_F(GltfOrigin, OthersStayAsTheyAre) {
-  gltf.add_triangle();
-  gltf.json["nodes"][1]["translation"] = {-30, 0, 20};
-  const Scene scene = load();
-  EXPECT_EQ(scene.origin, glm::dvec3(0.0));
-  EXPECT_EQ(scene.triangles.at(0).position[1], glm::vec3(-29, 0, 20));
+    gltf.add_triangle();
+    gltf.json["nodes"][1]["translation"] = {-30, 0, 20};
+    const Scene scene = load();
+    EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+    EXPECT_EQ(scene.triangles.at(0).position[1], glm::vec3(-29, 0, 20));
 }
 
 }  // namespace
