@@ -2,8 +2,8 @@
 #include "structs.glsl"
 
 layout(std430, binding = BINDING_NODES) restrict readonly buffer NodeBuffer { Node nodes[]; };
-layout(std430, binding = BINDING_SHAPES) restrict readonly buffer ShapeBuffer { TriangleShape shapes[]; };
-layout(std430, binding = BINDING_SHADES) restrict readonly buffer ShadeBuffer { TriangleShade shades[]; };
+layout(binding = UNIT_SHAPES) uniform samplerBuffer shapes;
+layout(binding = UNIT_SHADES) uniform samplerBuffer shades;
 layout(std430, binding = BINDING_MATERIALS) restrict readonly buffer MaterialBuffer { Material materials[]; };
 layout(std430, binding = BINDING_LIGHT_TRIANGLES) restrict readonly buffer LightTriangleBuffer {
   LightTriangle light_triangles[];
@@ -11,6 +11,15 @@ layout(std430, binding = BINDING_LIGHT_TRIANGLES) restrict readonly buffer Light
 layout(std430, binding = BINDING_LIGHTS) restrict readonly buffer LightBuffer { Light lights[]; };
 layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters parameters; };
 layout(location = LOCATION_FRAME) uniform uint frame_number;
+
+// Vertex 0, 1 or 2 of a triangle, and what is stored with it.
+vec3 vertex_of(uint triangle, uint vertex) {
+  return texelFetch(shapes, int(3u * triangle + vertex)).xyz;
+}
+
+vec4 shade_of(uint triangle, uint vertex) {
+  return texelFetch(shades, int(3u * triangle + vertex));
+}
 
 const float PI = 3.14159265358979;
 const float INFINITY = uintBitsToFloat(0x7f800000u);

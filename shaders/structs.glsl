@@ -9,14 +9,14 @@ struct Node {
   vec4 hi;  // xyz: upper corner, w: bits of the miss link, NO_NODE at the end
 };
 
-// In the order of the leaves; what an intersection test reads.
+// In the order of the leaves; what an intersection test reads. Shaders fetch it member by member, as texels.
 struct TriangleShape {  // vertices, as the neighbours have them to the bit
   vec4 vertex0;
   vec4 vertex1;
   vec4 vertex2;
 };
 
-// In the same order; what a hit reads.
+// In the same order and way; what a hit reads.
 struct TriangleShade {
   vec4 normal0;  // xyz: vertex normal, w: bits of the material
   vec4 normal1;  // w: bits of the object
@@ -155,8 +155,6 @@ struct Parameters {
 
 const int BINDING_PARAMETERS = 0;
 const int BINDING_NODES = 0;
-const int BINDING_SHAPES = 1;
-const int BINDING_SHADES = 2;
 const int BINDING_MATERIALS = 3;
 const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
@@ -179,6 +177,10 @@ const int BINDING_FILTER_GUIDES = 20;
 const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
 const int BINDING_SITE_LISTS = 23;
+
+// Texture units.
+const int UNIT_SHAPES = 0;
+const int UNIT_SHADES = 1;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 

@@ -15,14 +15,14 @@ struct Surface {
 };
 
 Surface surface_at(Hit hit, vec3 direction) {
-  vec3 v0 = shapes[hit.triangle].vertex0.xyz;
-  vec3 v1 = shapes[hit.triangle].vertex1.xyz;
-  vec3 v2 = shapes[hit.triangle].vertex2.xyz;
+  vec3 v0 = vertex_of(hit.triangle, 0u);
+  vec3 v1 = vertex_of(hit.triangle, 1u);
+  vec3 v2 = vertex_of(hit.triangle, 2u);
   vec3 edge1 = v1 - v0;
   vec3 edge2 = v2 - v0;
-  vec4 n0 = shades[hit.triangle].normal0;
-  vec4 n1 = shades[hit.triangle].normal1;
-  vec4 n2 = shades[hit.triangle].normal2;
+  vec4 n0 = shade_of(hit.triangle, 0u);
+  vec4 n1 = shade_of(hit.triangle, 1u);
+  vec4 n2 = shade_of(hit.triangle, 2u);
   vec2 b = hit.barycentric;
 
   Surface s;

@@ -59,9 +59,9 @@ float edge_function(vec3 p, vec3 q) {
 
 // Either side is hit, edges and corners included, so that no ray passes between neighbours; t in (0, hit.t).
 void test_triangle(vec3 origin, Shear shear, uint triangle, inout Hit hit) {
-  vec3 a = sheared(shapes[triangle].vertex0.xyz, origin, shear);
-  vec3 b = sheared(shapes[triangle].vertex1.xyz, origin, shear);
-  vec3 c = sheared(shapes[triangle].vertex2.xyz, origin, shear);
+  vec3 a = sheared(vertex_of(triangle, 0u), origin, shear);
+  vec3 b = sheared(vertex_of(triangle, 1u), origin, shear);
+  vec3 c = sheared(vertex_of(triangle, 2u), origin, shear);
   vec3 weights = vec3(edge_function(c, b), edge_function(a, c), edge_function(b, a));
   bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessThanEqual(weights, vec3(0.0)));
   weights /= weights.x + weights.y + weights.z;

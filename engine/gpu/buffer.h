@@ -8,23 +8,29 @@
 
 namespace qtrace::gpu {
 
+// texels: vec4s that shaders fetch through a buffer texture. llvmpipe allows 2 GiB of them, and 128 MiB of
+// storage.
+enum class BufferUse { storage, texels };
+
 // What the current context's device allows.
-std::size_t most_buffer_bytes();
+std::size_t most_buffer_bytes(BufferUse use);
 
 // Throws Error that names the buffer where the device allows none of this size.
-void check_buffer_size(const std::string& name, std::size_t bytes);
+void check_buffer_size(const std::string& name, std::size_t bytes, BufferUse use = BufferUse::storage);
 
 // A buffer object with storage that never changes its size. `name` is what errors call it.
 class Buffer {
  public:
   // Zeroed. Throws Error where the device does not allow or does not have so much.
-  Buffer(std::string name, std::size_t bytes);
+  Buffer(std::string name, std::size_t bytes, BufferUse use = BufferUse::storage);
   template <class T>
-  Buffer(std::string name, std::span<const T> data) : Buffer(std::move(name), data.size_bytes()) {
+  Buffer(std::string name, std::span<const T> data, BufferUse use = BufferUse::storage)
+      : Buffer(std::move(name), data.size_bytes(), use) {
     if (!data.empty()) write(0, data.data(), data.size_bytes());
   }
   template <class T>
-  Buffer(std::string name, const std::vector<T>& data) : Buffer(std::move(name), std::span<const T>(data)) {}
+  Buffer(std::string name, const std::vector<T>& data, BufferUse use = BufferUse::storage)
+      : Buffer(std::move(name), std::span<const T>(data), use) {}
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
@@ -32,6 +38,7 @@ class Buffer {
   std::size_t bytes() const { return bytes_; }
   void bind_storage(int binding) const;
   void bind_uniform(int binding) const;
+  void bind_texels(int unit) const;
   void bind_dispatch() const;  // as the size of an indirect dispatch
 
   void clear();
@@ -50,6 +57,7 @@ class Buffer {
   std::string name_;
   std::size_t bytes_ = 0;
   std::uint32_t id_ = 0;
+  std::uint32_t texture_ = 0;  // of texels
 };
 
 }  // namespace qtrace::gpu
