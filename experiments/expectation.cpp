@@ -73,7 +73,7 @@ class Judge {
     verdict_.expected = mean_of(reference_, areas[0]).mean;
     if (expect_.against == Against::mean) {
       verdict_.expected = expect_.mean;
-      compare(whole, {expect_.mean, 0}, areas[0].name, "the known mean");
+      compare(whole, {expect_.mean, 0}, areas[0].name, "the known one");
       // No radiance is negative: chance cannot explain any light at all.
       if (expect_.mean == 0 && whole.mean > 0) {
         verdict_.worst_z = std::numeric_limits<double>::infinity();
@@ -81,7 +81,7 @@ class Judge {
       }
     }
     for (const Area& area : areas) {
-      compare(mean_of(image_, area), mean_of(reference_, area), area.name, "the reference");
+      compare(mean_of(image_, area), mean_of(reference_, area), area.name, "that of the reference");
     }
     if (non_finite > 0) verdict_.reason = fmt::format("{} samples were not finite", non_finite);
     verdict_.word = verdict_.reason.empty() ? "pass" : "fail";
@@ -97,8 +97,8 @@ class Judge {
                const char* truth) {
     const double z = deviations(found, wanted, expect_.tolerance);
     if (z > verdict_.worst_z && z > kMostDeviations) {
-      verdict_.reason = fmt::format("the mean of {} is {:.6g} and that of {} {:.6g}: {:.3g} standard errors",
-                                    area, found.mean, truth, wanted.mean, z);
+      verdict_.reason = fmt::format("the mean of {} is {:.6g} and {} {:.6g}: {:.3g} standard errors", area,
+                                    found.mean, truth, wanted.mean, z);
     }
     verdict_.worst_z = std::max(verdict_.worst_z, z);
   }

@@ -51,6 +51,7 @@ void visit_knobs(Visitor& visit, Expectation& expect) {
         expect.black);
 }
 
+// Means are taken for normally distributed, which needs some hundred samples that meet light in every block.
 // Standard errors that chance may explain: two estimates with normal errors differ by more in one of 1.7
 // million comparisons.
 constexpr double kMostDeviations = 5;

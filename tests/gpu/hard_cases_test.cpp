@@ -143,7 +143,7 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
     }
     const Estimate mean = block_estimate(r.image, 0, 0, settings.width);
     EXPECT_LT(z_score(mean, {truth, 0}), z_threshold(3));
-    measured += fmt::format("{}{} {:.4f} ± {:.4f}", measured.empty() ? "" : ", ", enum_name(rule), mean.mean,
+    measured += fmt::format("{}{} {:.4f} +- {:.4f}", measured.empty() ? "" : ", ", enum_name(rule), mean.mean,
                             std::sqrt(mean.variance));
   }
   EXPECT_GT(saturated, 0U);

@@ -97,10 +97,10 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
 // Two corners in common are no duplicate.
 TEST_F(GltfDuplicates, NeighboursStay) {
   gltf.add_triangle();
-  add_second({
-    0, 0, 0, 1, 0, XX const Scene scene = load();
-    EXPECT_EQ(scene.triangles.size(), 2U);
-    EXPECT_TRUE(scene.warnings.empty());
+  add_second({0, 0, 0, 1, 0, 0, 0, 1.0001F, 0}, glow, glow);
+  const Scene scene = load();
+  EXPECT_EQ(scene.triangles.size(), 2U);
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 using GltfOrigin = GltfTest;
@@ -108,27 +108,27 @@ using GltfOrigin = GltfTest;
 // At 10,000 a float resolves a thousandth: moved to the origin first, a triangle of a thousandth keeps its
 // shape.
 TEST_F(GltfOrigin, FarScenesAreMovedAboutTheOrigin) {
-    gltf.add_triangle();
-    gltf.json["nodes"][0]["translation"] = {10000, 0, 0.002};
-    gltf.json["nodes"][1]["translation"] = {10000, 0, 0};
-    gltf.json["nodes"][1]["scale"] = {0.001, 0.001, 0.001};
-    const Scene scene = load();
-    EXPECT_NEAR(scene.origin.x, 10000.0005, 1e-9);
-    EXPECT_NEAR(scene.origin.y, 0.0005, 1e-9);
-    const auto& p = scene.triangles.at(0).position;
-    EXPECT_NEAR(double{p[1].x} - p[0].x, 0.001, 1e-9);
-    EXPECT_NEAR(p[0].x, -0.0005, 1e-9);
-    EXPECT_NEAR(p[2].y, 0.0005, 1e-9);
-    EXPECT_NEAR(scene.camera.world_from_camera[3].x, -0.0005, 1e-9);
-    EXPECT_NEAR(scene.camera.world_from_camera[3].z, 0.002, 1e-9);
+  gltf.add_triangle();
+  gltf.json["nodes"][0]["translation"] = {10000, 0, 0.002};
+  gltf.json["nodes"][1]["translation"] = {10000, 0, 0};
+  gltf.json["nodes"][1]["scale"] = {0.001, 0.001, 0.001};
+  const Scene scene = load();
+  EXPECT_NEAR(scene.origin.x, 10000.0005, 1e-9);
+  EXPECT_NEAR(scene.origin.y, 0.0005, 1e-9);
+  const auto& p = scene.triangles.at(0).position;
+  EXPECT_NEAR(double{p[1].x} - p[0].x, 0.001, 1e-9);
+  EXPECT_NEAR(p[0].x, -0.0005, 1e-9);
+  EXPECT_NEAR(p[2].y, 0.0005, 1e-9);
+  EXPECT_NEAR(scene.camera.world_from_camera[3].x, -0.0005, 1e-9);
+  EXPECT_NEAR(scene.camera.world_from_camera[3].z, 0.002, 1e-9);
 }
 
 TEST_F(GltfOrigin, OthersStayAsTheyAre) {
-    gltf.add_triangle();
-    gltf.json["nodes"][1]["translation"] = {-30, 0, 20};
-    const Scene scene = load();
-    EXPECT_EQ(scene.origin, glm::dvec3(0.0));
-    EXPECT_EQ(scene.triangles.at(0).position[1], glm::vec3(-29, 0, 20));
+  gltf.add_triangle();
+  gltf.json["nodes"][1]["translation"] = {-30, 0, 20};
+  const Scene scene = load();
+  EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+  EXPECT_EQ(scene.triangles.at(0).position[1], glm::vec3(-29, 0, 20));
 }
 
 }  // namespace
