@@ -1,8 +1,10 @@
 #include "experiments/metrics.h"
 
 #include "engine/core/check.h"
+#include "experiments/flip.h"
+#include "experiments/ldr_flip.h"
+#include "experiments/pixel_errors.h"
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -12,20 +14,6 @@
 
 namespace qtrace::experiments {
 namespace {
-
-double channel_mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3.0; }
-
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-double squared_error(const glm::dvec3& a, const glm::dvec3& r) { return channel_mean((a - r) * (a - r)); }
-
-double relative_squared_error(const glm::dvec3& a, const glm::dvec3& r) {
-  return channel_mean((a - r) * (a - r) / (r * r + kEpsilon));
-}
-
-double absolute_percentage_error(const glm::dvec3& a, const glm::dvec3& r) {
-  return channel_mean(glm::abs(a - r) / (glm::abs(r) + kEpsilon));
-}
 
 // NaN for no values at all.
 double mean(const std::vector<double>& values) {
@@ -50,11 +38,10 @@ bool ErrorMetrics::at_reference_floor() const {
 }
 
 ErrorMetrics compare_images(const RadianceImage& image, const RadianceImage& reference) {
-  check(image.width == reference.width && image.height == reference.height,
-        "an image of {}x{} pixels cannot be compared with a reference of {}x{}", image.width, image.height,
-        reference.width, reference.height);
+  check_same_size(image, reference);
   ErrorMetrics errors;
-  std::vector<double> squared, relative, percentage, difference;
+  std::vector<double> squared, relative, percentage, symmetric, difference;
+  double peak = 0;
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     const glm::dvec3 a = image.mean[i];
     const glm::dvec3 r = reference.mean[i];
@@ -65,12 +52,16 @@ ErrorMetrics compare_images(const RadianceImage& image, const RadianceImage& ref
     squared.push_back(squared_error(a, r));
     relative.push_back(relative_squared_error(a, r));
     percentage.push_back(absolute_percentage_error(a, r));
+    symmetric.push_back(symmetric_percentage_error(a, r));
     difference.push_back(channel_mean(a - r));
+    peak = std::max({peak, r.x, r.y, r.z});
   }
   errors.mse = mean(squared);
   errors.relmse = mean(relative);
   errors.relmse_trimmed = trimmed_mean(std::move(relative));
   errors.mape = mean(percentage);
+  errors.smape = mean(symmetric);
+  errors.psnr_db = 10 * std::log10(peak * peak / errors.mse);
   errors.bias = mean(difference);
   errors.reference = reference_noise(reference);
   return errors;
@@ -102,6 +93,19 @@ std::vector<MetricDefinition> metric_definitions() {
        project},
       {"mape", fmt::format("mean(|a - r| / (|r| + {}))", kEpsilon),
        "Mueller et al. 2019, Neural importance sampling"},
+      {"smape", fmt::format("mean(|a - r| / (|a| + |r| + {}))", kEpsilon),
+       "Vogels et al. 2018, Denoising with kernel prediction and asymmetric loss functions"},
+      {"psnr_db",
+       "10 log10(peak^2 / mse), peak: the largest channel value of the reference; inf for equal images",
+       "textbook; the peak is this project's, as radiance has none of its own"},
+      {"flip",
+       fmt::format(
+           "mean over pixels of the largest LDR-FLIP over exposures: tone mapper ACES, one exposure a "
+           "stop from the reference's brightest to its median luminance at {}, {:.4g} pixels per degree; "
+           "in runs only with flip: true",
+           kToneAtEnds, kPixelsPerDegree),
+       "Andersson, Nilsson, Shirley, Akenine-Moeller 2021, Visualizing errors in rendered high dynamic range "
+       "images"},
       {"bias", "mean(a - r)", "textbook"},
       {"reference_mse", "mean(var(r)), var(r): variance of the reference's mean", project},
       {"reference_relmse", fmt::format("mean(var(r) / (r^2 + {}))", kEpsilon), project},

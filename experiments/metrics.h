@@ -27,6 +27,9 @@ struct ErrorMetrics {
   double relmse = 0;
   double relmse_trimmed = 0;
   double mape = 0;
+  double smape = 0;
+  double psnr_db = 0;          // infinite for equal images
+  std::optional<double> flip;  // nothing where it was not asked for: see flip.h
   double bias = 0;
   std::optional<ReferenceNoise> reference;  // unknown where the reference has fewer than two samples
   std::uint64_t non_finite = 0;  // pixels that are not finite in image or reference: left out above
@@ -35,7 +38,8 @@ struct ErrorMetrics {
   bool at_reference_floor() const;
 };
 
-// Throws Error where the sizes differ. All errors are NaN if no pixel is finite.
+// All but flip, which costs more than the rest together. Throws Error where the sizes differ. All errors are
+// NaN if no pixel is finite.
 ErrorMetrics compare_images(const RadianceImage& image, const RadianceImage& reference);
 
 // Nothing where the reference has fewer than two samples.

@@ -44,6 +44,9 @@ void add_error_columns(std::vector<Column<Row>>& columns, const std::string& pre
   column("relmse", [](const E& e) { return CsvValue(e.relmse); });
   column("relmse_trimmed", [](const E& e) { return CsvValue(e.relmse_trimmed); });
   column("mape", [](const E& e) { return CsvValue(e.mape); });
+  column("smape", [](const E& e) { return CsvValue(e.smape); });
+  column("psnr_db", [](const E& e) { return CsvValue(e.psnr_db); });
+  column("flip", [](const E& e) { return maybe(e.flip); });
   column("bias", [](const E& e) { return CsvValue(e.bias); });
   column("at_reference_floor", [](const E& e) { return CsvValue(e.at_reference_floor()); });
   column("non_finite_pixels", [](const E& e) { return CsvValue(e.non_finite); });
