@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <map>
 
 namespace qtrace::experiments {
 namespace {
@@ -113,6 +114,31 @@ CLI::App* add_inspect_command(CLI::App& app, InspectOptions& options) {
   return inspect;
 }
 
+CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
+  std::map<std::string, PixelError> metrics;
+  for (std::size_t i = 0; i < EnumNames<PixelError>::values.size(); ++i) {
+    metrics.emplace(EnumNames<PixelError>::values[i], static_cast<PixelError>(i));
+  }
+  CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
+  compare->add_option("IMAGE", options.image, "OpenEXR file: R, G, B, a layer of them, X, Y, Z or Y")
+      ->required();
+  compare->add_option("REFERENCE", options.reference, "the same, perhaps with variances")->required();
+  compare->add_option("--layer", options.layer, "the layer or part to compare, where there are several");
+  compare->add_option("--reference-layer", options.reference_layer,
+                      "of the reference (default: --layer where it has that, else its main image)");
+  compare->add_option("--heat", options.heat,
+                      "writes the error of every pixel: .png in false colours, .exr the values");
+  compare->add_option("--heat-metric", options.heat_metric, "mse, relmse (default), mape, smape or flip")
+      ->transform(CLI::Transformer(metrics))
+      ->option_text("METRIC")
+      ->check(CLI::IsMember(metrics));
+  compare
+      ->add_option("--heat-max", options.heat_top,
+                   "error with the brightest colour (default: flip 1, else the 99th percentile)")
+      ->check(CLI::PositiveNumber);
+  return compare;
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("qtrace: convergence studies of reinforcement-learned light transport");
   app.require_subcommand(1);
@@ -121,10 +147,8 @@ int dispatch(int argc, const char* const* argv) {
   add_run_command(app, options);
   InspectOptions inspect_options;
   CLI::App* inspect = add_inspect_command(app, inspect_options);
-  std::string image, reference;
-  CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
-  compare->add_option("IMAGE", image, "OpenEXR file with R, G, B")->required();
-  compare->add_option("REFERENCE", reference, "OpenEXR file with R, G, B and perhaps variances")->required();
+  CompareOptions compare_options;
+  CLI::App* compare = add_compare_command(app, compare_options);
   CLI::App* devices = app.add_subcommand("devices", "List what this machine can compute on");
   CLI::App* keys = app.add_subcommand("keys", "List the keys of experiment files");
   try {
@@ -133,7 +157,7 @@ int dispatch(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (compare->parsed()) {
-    fmt::print("{}", compare_files(image, reference));
+    fmt::print("{}", compare_files(compare_options));
     return 0;
   }
   if (inspect->parsed()) {

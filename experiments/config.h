@@ -74,6 +74,7 @@ struct RunConfig {
   SnapshotPlan snapshots;
   SaveTable save_table = SaveTable::none;
   ReferenceSettings reference;
+  bool flip = false;
   double firefly_multiple = 100;
   FilterSettings filter;
   Expectation expect;
@@ -97,6 +98,11 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
   visit(KnobInfo{"reference", "",
                  "the long render without learned directions that errors are measured against"},
         config.reference);
+  visit(
+      KnobInfo{
+          "flip", "",
+          "measure HDR-FLIP at snapshots, too: what an observer sees; costs like some two frames each time"},
+      config.flip);
   visit(
       KnobInfo{
           "firefly_multiple", "",

@@ -2,30 +2,16 @@
 
 #include "engine/core/check.h"
 #include "experiments/atomic_file.h"
+#include "experiments/exr_planes.h"
 
 #include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
-#include <cstddef>
-
 namespace qtrace::experiments {
 namespace {
-
-constexpr int kMaxSide = 65'536;
-
-// A plane whose first value belongs to the pixel (left, top) of a file. OpenEXR addresses pixels from its
-// own origin, hence the shifted base, which is computed as an integer because it may lie outside the plane.
-Imf::Slice plane_slice(std::vector<float>& plane, const Imath::Box2i& window, std::size_t width) {
-  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(width * sizeof(float));
-  const std::ptrdiff_t offset =
-      window.min.x * static_cast<std::ptrdiff_t>(sizeof(float)) + window.min.y * row;
-  const auto base = reinterpret_cast<std::intptr_t>(plane.data()) - offset;
-  return {Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float), width * sizeof(float)};
-}
 
 void write_planes(const std::filesystem::path& file, const ExrImage& image) {
   Imf::Header header(image.width, image.height);
@@ -47,11 +33,10 @@ ExrImage read_planes(const std::filesystem::path& file) {
   check(input.isComplete(), "the file is truncated");
   const Imf::Header& header = input.header();
   const Imath::Box2i window = header.dataWindow();
+  check_window(window);
   ExrImage image;
   image.width = window.max.x - window.min.x + 1;
   image.height = window.max.y - window.min.y + 1;
-  check(image.width > 0 && image.width <= kMaxSide && image.height > 0 && image.height <= kMaxSide,
-        "{}x{} pixels are not between 1 and {} each way", image.width, image.height, kMaxSide);
   const auto width = static_cast<std::size_t>(image.width);
   Imf::FrameBuffer buffer;
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {

@@ -60,6 +60,16 @@ requires(!std::same_as<T, bool> && sizeof(T) <= 4)  // double holds these exactl
 };
 
 template <>
+struct KnobType<bool> {
+  static std::string describe(const KnobInfo&) { return "true or false"; }
+  static void read(const Json& json, const KnobInfo& info, const std::string& path, bool& value) {
+    if (!json.is_boolean()) reject_value(path, json, describe(info));
+    value = json.get<bool>();
+  }
+  static Json write(bool value) { return value; }
+};
+
+template <>
 struct KnobType<double> {
   static std::string describe(const KnobInfo& info) { return "a number" + range_text(info.min, info.max); }
   static void read(const Json& json, const KnobInfo& info, const std::string& path, double& value) {

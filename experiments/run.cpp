@@ -4,6 +4,7 @@
 #include "engine/tracer/atrous.h"
 #include "engine/tracer/tracer.h"
 #include "experiments/fireflies.h"
+#include "experiments/flip.h"
 #include "experiments/hash.h"
 #include "experiments/manifest.h"
 #include "experiments/run_files.h"
@@ -170,13 +171,19 @@ class Execution {
     if (wanted && table != nullptr) files_.write_q_table(frame, *table);
   }
 
+  ErrorMetrics measure(const RadianceImage& image, const Reference& reference) const {
+    ErrorMetrics errors = compare_images(image, reference.image);
+    if (config().flip) errors.flip = flip_error(image, reference.image);
+    return errors;
+  }
+
   double take_snapshot(int frame, Tracer& tracer, const Reference& reference) {
     const RadianceImage image = tracer.radiance();
     SnapshotRecord next;
     next.frame = frame;
     next.elapsed_s = record_.elapsed_s();
     next.gpu_elapsed_s = record_.gpu_elapsed_s();
-    next.errors = compare_images(image, reference.image);
+    next.errors = measure(image, reference);
     next.non_finite = record_.totals().non_finite;
     next.clamped_samples = record_.totals().clamped_samples;
     next.clamp_bias = clamp_bias(tracer.outliers(), image);
@@ -185,7 +192,7 @@ class Execution {
       const auto start = Clock::now();
       filtered = filter_->apply(image);
       const double ms = seconds_since(start) * 1e3;
-      next.filtered = FilteredRecord{compare_images(*filtered, reference.image), ms};
+      next.filtered = FilteredRecord{measure(*filtered, reference), ms};
     }
     record_.snapshots.push_back(next);
     files_.write_snapshot(frame, image, filtered ? &*filtered : nullptr);

@@ -153,13 +153,13 @@ TEST(WritersCompare, PrintsMetricsAndRefusesOtherSizes) {
   write_exr(folder / "r.exr", to_exr(image, {}));
   for (glm::dvec3& pixel : image.mean) pixel += 1.0;
   write_exr(folder / "a.exr", to_exr(image, {}));
-  const std::string table = compare_files(folder / "a.exr", folder / "r.exr");
+  const std::string table = compare_files({folder / "a.exr", folder / "r.exr"});
   EXPECT_NE(table.find("mse                 1 "), std::string::npos) << table;
   EXPECT_NE(table.find("0 of 6 pixels"), std::string::npos);
   image.width = 2;
   image.height = 3;
   write_exr(folder / "b.exr", to_exr(image, {}));
-  EXPECT_THROW(compare_files(folder / "b.exr", folder / "r.exr"), Error);
+  EXPECT_THROW(compare_files({folder / "b.exr", folder / "r.exr"}), Error);
 }
 
 }  // namespace

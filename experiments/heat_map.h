@@ -1,0 +1,38 @@
+// Errors per pixel as a picture: false colours in PNG, or the values themselves in OpenEXR.
+#pragma once
+
+#include "experiments/pixel_errors.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// Which error is white-hot. Linear from 0, which is black; values above `top` have its colour.
+struct HeatScale {
+  double top = 1;
+  std::size_t above = 0;       // pixels beyond it
+  std::size_t not_finite = 0;  // green, a colour that magma does not have
+};
+
+constexpr double kHeatQuantile = 0.99;
+
+// FLIP ends at 1. Other metrics: at `top` where it is given, else at the 99th percentile of the finite values
+// (their largest where that is 0), as a few fireflies would leave the rest of a map black.
+HeatScale heat_scale(PixelError metric, const std::vector<double>& errors, double top = 0);
+
+// 8-bit RGB, three bytes a pixel.
+std::vector<std::uint8_t> heat_colours(const std::vector<double>& errors, const HeatScale& scale);
+
+// Throws Error unless the name ends in .png or .exr.
+void check_heat_file(const std::filesystem::path& file);
+
+// False colours, or with .exr the values in a channel Y, with the metric's name in the metadata. Whole or not
+// at all. Throws Error that names the file.
+void write_heat_map(const std::filesystem::path& file, PixelError metric, int width, int height,
+                    const std::vector<double>& errors, const HeatScale& scale);
+
+}  // namespace qtrace::experiments
