@@ -25,6 +25,8 @@ METRICS = {
     "relmse": ("relMSE (dimensionless)", "reference_relmse"),
     "relmse_trimmed": ("relMSE, worst 0.1 % of pixels\nleft out (dimensionless)", None),
     "mape": ("MAPE (fraction)", None),
+    "smape": ("SMAPE (fraction)", None),
+    "flip": ("HDR-FLIP (0 to 1)", None),
 }
 X_AXES = {"spp": "samples per pixel (spp)", "seconds": "render time (s), learning included"}
 WIDTH = 11.0       # inches
@@ -137,6 +139,10 @@ def _caption(results: Results, points: pd.DataFrame, floor_column: str | None) -
 def convergence_figure(results: Results, metric: str) -> Figure:
     """Raises AnalysisError where nothing can be drawn on logarithmic axes."""
     label, floor_column = METRICS[metric]
+    measured = results.convergence.get(metric)
+    if measured is None or (len(measured) and measured.isna().all()):
+        hint = ': "flip": true in the config asks for it' if metric == "flip" else ""
+        raise AnalysisError(f"{results.folder}: no {metric} was measured{hint}")
     points = over_seeds(results.convergence, metric)
     if not (points["mean"] > 0).any():
         raise AnalysisError(f"{results.folder}: no {metric} is above zero, so there is nothing to draw")

@@ -129,9 +129,7 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
   compare->add_option("--heat", options.heat,
                       "writes the error of every pixel: .png in false colours, .exr the values");
   compare->add_option("--heat-metric", options.heat_metric, "mse, relmse (default), mape, smape or flip")
-      ->transform(CLI::Transformer(metrics))
-      ->option_text("METRIC")
-      ->check(CLI::IsMember(metrics));
+      ->transform(CLI::CheckedTransformer(metrics).description(""));
   compare
       ->add_option("--heat-max", options.heat_top,
                    "error with the brightest colour (default: flip 1, else the 99th percentile)")

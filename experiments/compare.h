@@ -11,9 +11,9 @@ namespace qtrace::experiments {
 struct CompareOptions {
   std::filesystem::path image;
   std::filesystem::path reference;
-  std::string layer;            // empty: chosen as exr_layers.h says
-  std::string reference_layer;  // empty: `layer` where the reference has it, else chosen
-  std::filesystem::path heat;   // empty: no heat map
+  std::string layer{};            // empty: chosen as exr_layers.h says
+  std::string reference_layer{};  // empty: `layer` where the reference has it, else chosen
+  std::filesystem::path heat{};   // empty: no heat map
   PixelError heat_metric = PixelError::relmse;
   double heat_top = 0;  // 0: as heat_map.h says
 };

@@ -42,7 +42,8 @@ def convergence_rows(scene: str, method: str, seed: int) -> list[dict[str, Any]]
         error = relmse(method, seed, frame, scene)
         rows.append({"frame": frame, "spp": frame, "elapsed_s": SECONDS[method] * frame + 0.01 * seed,
                      "gpu_elapsed_s": SECONDS[method] * frame, "mse": error / 2, "relmse": error,
-                     "relmse_trimmed": error * 0.9, "mape": error ** 0.5, "bias": -0.001, **REFERENCE_NOISE,
+                     "relmse_trimmed": error * 0.9, "mape": error ** 0.5, "smape": error / 25, "flip": "",
+                     "bias": -0.001, **REFERENCE_NOISE,
                      "at_reference_floor": int(error <= 3 * REFERENCE_NOISE["reference_relmse"]),
                      "non_finite_pixels": 0, "non_finite": 0})
     return rows

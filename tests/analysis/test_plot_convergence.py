@@ -71,6 +71,13 @@ class FigureTest(FolderTest):
         self.assertNotIn("_floor", labelled(figure.axes[0].lines))
         self.assertIn("not known in this metric", texts(figure))
 
+    def test_errors_that_only_some_runs_have(self) -> None:
+        results = load(write_results(self.results))
+        results.convergence.loc[results.convergence.label == "RL", "flip"] = 0.25
+        lines = labelled(convergence_figure(results, "flip").axes[0].lines)
+        self.assertEqual(list(lines["RL"].get_ydata()), [0.25] * 4)
+        self.assertTrue(np.isnan(lines["BSDF"].get_ydata()).all())
+
     def test_distant_floor_is_named_rather_than_drawn(self) -> None:
         results = load(write_results(self.results))
         results.convergence["reference_relmse"] = 1e-9
@@ -140,6 +147,7 @@ class CommandTest(FolderTest):
     def test_failures(self) -> None:
         self.check_fails("no such folder", self.folder / "nowhere")
         self.check_fails("unknown metric 'bias'; known are mse, relmse", self.results, "--metric", "bias")
+        self.check_fails('no flip was measured: "flip": true in the config', self.results, "--metric", "flip")
         self.check_fails("unknown format 'gif'", self.results, "--format", "png,gif")
         (self.folder / "file").write_text("")
         self.check_fails("cannot be written", self.results, "--out", self.folder / "file")

@@ -1,4 +1,5 @@
 // The program's face: help, usage errors, lists; and bad input, refused before anything is written.
+#include "experiments/exr.h"
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 
@@ -88,6 +89,7 @@ TEST_F(CommandLine, BadConfigsAreRefused) {
                  "bad.json: unknown key 'samplre'; did you mean 'sampler'?");
   expect_refused(small_config("x", R"("max_bounces": "5", )"), "key 'max_bounces' stands twice");
   expect_refused(small_config("x", R"("seed": "5", )"), "key 'seed' is \"5\" but must be a whole number");
+  expect_refused(small_config("x", R"("flip": 1, )"), "key 'flip' is 1 but must be true or false");
   expect_refused(small_config("x", R"("rl": {"bins_phi": 1000}, )"), "from 1 to 64");
   expect_refused("{", "bad.json: not valid JSON");
   expect_refused(small_config("x", R"("sweep": [{"seed": [1, 9001]}], )"), "run 'seed=9001': ");
@@ -139,6 +141,25 @@ TEST_F(CommandLine, CompareNamesWhatIsWrong) {
   folder_.write("a.exr", "no image");
   EXPECT_TRUE(
       contains(qtrace({"compare", "a.exr", "a.exr"}).err, "a.exr: cannot be read as an OpenEXR image"));
+}
+
+TEST_F(CommandLine, CompareTakesLayersAndDrawsHeatMaps) {
+  experiments::ExrImage image{2, 1, {}, {}};
+  for (const char* name : {"a.R", "a.G", "a.B"}) image.channels[name] = {1, 2};
+  for (const char* name : {"b.R", "b.G", "b.B"}) image.channels[name] = {1, 4};
+  write_exr(folder_ / "two.exr", image);
+  const Outcome vague = qtrace({"compare", "two.exr", "two.exr"});
+  EXPECT_EQ(vague.exit_code, 1);
+  EXPECT_TRUE(contains(vague.err, "two.exr: has several images: name one; its layers are: a (")) << vague.err;
+  const Outcome outcome = qtrace({"compare", "two.exr", "two.exr", "--layer", "b", "--reference-layer", "a",
+                                  "--heat", "heat.png", "--heat-metric", "mse", "--heat-max", "8"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "\nmse                 2 ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "heat map heat.png: mse per pixel, magma, linear from 0 (black) to 8"))
+      << outcome.out;
+  EXPECT_EQ(folder_.read("heat.png").substr(1, 3), "PNG");
+  EXPECT_EQ(qtrace({"compare", "two.exr", "two.exr", "--layer", "b", "--heat-metric", "psnr"}).exit_code, 2);
+  EXPECT_EQ(qtrace({"compare", "two.exr", "two.exr", "--layer", "b", "--heat-max", "0"}).exit_code, 2);
 }
 
 }  // namespace

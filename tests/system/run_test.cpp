@@ -192,6 +192,28 @@ TEST_F(RunProgram, FilteredImagesAreMeasuredOnTheirOwn) {
   EXPECT_TRUE(contains(outcome.out, "Its time is filter_ms in summary.csv"));
 }
 
+TEST_F(RunProgram, FlipIsMeasuredWhereItIsAskedFor) {
+  ASSERT_EQ(run("seen", R"("sweep": [{"flip": [false, true]}], "filter": {"kind": "atrous"}, )").exit_code,
+            0);
+  const auto without = parse_csv(folder_.read("results/seen/flip=false/convergence.csv"));
+  const auto curve = parse_csv(folder_.read("results/seen/flip=true/convergence.csv"));
+  const auto filtered = parse_csv(folder_.read("results/seen/flip=true/convergence_filtered.csv"));
+  const auto summary = parse_csv(folder_.read("results/seen/summary.csv"));
+  EXPECT_EQ(without[2].at("flip"), "");
+  EXPECT_EQ(without[2].at("smape"), curve[2].at("smape"));
+  EXPECT_LT(std::stod(curve[2].at("flip")), std::stod(curve[0].at("flip")));
+  EXPECT_NE(filtered[2].at("filtered_flip"), curve[2].at("flip"));
+  EXPECT_EQ(summary[1].at("flip"), curve[2].at("flip"));
+  EXPECT_EQ(summary[1].at("filtered_flip"), filtered[2].at("filtered_flip"));
+  // The same from the files, whose values are rounded to 32 bits.
+  const std::string reference = json("results/seen/flip=true/manifest.json").at("reference").at("file");
+  const Outcome outcome =
+      run_qtrace({"compare", "results/seen/flip=true/frame_000004.exr", reference}, folder_.path());
+  const std::size_t line = outcome.out.find("\nflip ");
+  ASSERT_NE(line, std::string::npos) << outcome.out << outcome.err;
+  EXPECT_NEAR(std::stod(outcome.out.substr(line + 6)), std::stod(curve[2].at("flip")), 1e-5);
+}
+
 TEST_F(RunProgram, FirefliesAndClampingAreFiguresOfARun) {
   const Outcome outcome = run(
       "sparks", R"("sampler": "uniform", "firefly_multiple": 2, "sweep": [{"clamp_radiance": [0, 0.25]}], )");

@@ -29,6 +29,44 @@ TEST(Metrics, TwoGreyPixels) {
   EXPECT_EQ(errors.non_finite, 0U);
 }
 
+TEST(Metrics, SymmetricPercentage) {
+  // |a - r| / (|a| + |r| + 0.01): 1 / 3.01 and 0.5 / 3.51.
+  EXPECT_DOUBLE_EQ(compare_images(grey({2, 1.5}), grey({1, 2})).smape, (1 / 3.01 + 0.5 / 3.51) / 2);
+  // Channels 0, 1, 3 apart: 0, 1 / (2 + 1 + 0.01) and 3 / (3 + 0 + 0.01).
+  RadianceImage image = grey({0}), reference = grey({0});
+  image.mean[0] = {1, 2, 3};
+  reference.mean[0] = {1, 1, 0};
+  EXPECT_DOUBLE_EQ(compare_images(image, reference).smape, (0 + 1 / 3.01 + 3 / 3.01) / 3);
+  EXPECT_DOUBLE_EQ(compare_images(reference, image).smape, (0 + 1 / 3.01 + 3 / 3.01) / 3);
+  EXPECT_DOUBLE_EQ(compare_images(grey({1}), grey({-1})).smape, 2 / 2.01);
+  EXPECT_EQ(compare_images(grey({0}), grey({0})).smape, 0);
+}
+
+TEST(Metrics, PeakSignalToNoise) {
+  // mse 0.625 as above, the reference's largest value 2: 10 log10(4 / 0.625) = 10 log10(6.4) = 8.0617997.
+  EXPECT_NEAR(compare_images(grey({2, 1.5}), grey({1, 2})).psnr_db, 8.0617997, 1e-7);
+  // The largest channel: 5, mse (0 + 0 + 1) / 3: 10 log10(75) = 18.7506126.
+  RadianceImage image = grey({0}), reference = grey({0});
+  reference.mean[0] = {1, 0.5, 5};
+  image.mean[0] = {1, 0.5, 4};
+  EXPECT_NEAR(compare_images(image, reference).psnr_db, 18.7506126, 1e-7);
+  EXPECT_EQ(compare_images(grey({2}), grey({2})).psnr_db, std::numeric_limits<double>::infinity());
+}
+
+TEST(Metrics, NineDifferentPixels) {
+  // 3x3; a - r is 1 at the centre (r = 2), -1 at a corner (r = 0), 0 elsewhere (r = 1).
+  RadianceImage image = grey({1, 1, 1, 1, 3, 1, 1, 1, -1}), reference = grey({1, 1, 1, 1, 2, 1, 1, 1, 0});
+  image.width = image.height = reference.width = reference.height = 3;
+  const ErrorMetrics errors = compare_images(image, reference);
+  EXPECT_NEAR(errors.mse, 2.0 / 9, 1e-15);
+  EXPECT_NEAR(errors.relmse, (1 / 4.01 + 1 / 0.01) / 9, 1e-12);
+  EXPECT_NEAR(errors.relmse_trimmed, 1 / 4.01 / 8, 1e-15);
+  EXPECT_NEAR(errors.mape, (1 / 2.01 + 1 / 0.01) / 9, 1e-12);
+  EXPECT_NEAR(errors.smape, (1 / 5.01 + 1 / 1.01) / 9, 1e-15);
+  EXPECT_NEAR(errors.psnr_db, 12.5527251, 1e-7);  // 10 log10(2^2 / (2 / 9)) = 10 log10(18)
+  EXPECT_EQ(errors.bias, 0);
+}
+
 TEST(Metrics, ChannelsAreAveragedWithinAPixel) {
   RadianceImage image = grey({0});
   RadianceImage reference = grey({0});
