@@ -10,9 +10,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <map>
 
 namespace qtrace::experiments {
 namespace {
@@ -115,10 +115,6 @@ CLI::App* add_inspect_command(CLI::App& app, InspectOptions& options) {
 }
 
 CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
-  std::map<std::string, PixelError> metrics;
-  for (std::size_t i = 0; i < EnumNames<PixelError>::values.size(); ++i) {
-    metrics.emplace(EnumNames<PixelError>::values[i], static_cast<PixelError>(i));
-  }
   CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
   compare->add_option("IMAGE", options.image, "OpenEXR file: R, G, B, a layer of them, X, Y, Z or Y")
       ->required();
@@ -128,8 +124,13 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
                       "of the reference (default: --layer where it has that, else its main image)");
   compare->add_option("--heat", options.heat,
                       "writes the error of every pixel: .png in false colours, .exr the values");
-  compare->add_option("--heat-metric", options.heat_metric, "mse, relmse (default), mape, smape or flip")
-      ->transform(CLI::CheckedTransformer(metrics).description(""));
+  const auto& names = EnumNames<PixelError>::values;
+  const auto choose = [&options, &names](const std::string& name) {
+    options.heat_metric =
+        static_cast<PixelError>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  compare->add_option_function<std::string>("--heat-metric", choose, "default: relmse")
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
   compare
       ->add_option("--heat-max", options.heat_top,
                    "error with the brightest colour (default: flip 1, else the 99th percentile)")

@@ -84,8 +84,9 @@ std::string draw_heat_map(const CompareOptions& options, const RadianceImage& im
   std::string line =
       fmt::format("\nheat map {}: {} per pixel", options.heat.string(), enum_name(options.heat_metric));
   if (options.heat.extension() == ".png") {
-    line += fmt::format(", magma, linear from 0 (black) to {:.4g} (pale yellow); {} of {} pixels are above",
-                        scale.top, scale.above, errors.size());
+    line += fmt::format(", magma, {} from {:.4g} (black) to {:.4g} (pale yellow); {} of {} pixels are above",
+                        scale.bottom > 0 ? "logarithmic" : "linear", scale.bottom, scale.top, scale.above,
+                        errors.size());
     if (scale.not_finite > 0) line += fmt::format("; {} are not finite (green)", scale.not_finite);
   }
   return line + '\n';

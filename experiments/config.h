@@ -101,7 +101,7 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
   visit(
       KnobInfo{
           "flip", "",
-          "measure HDR-FLIP at snapshots, too: what an observer sees; costs like some two frames each time"},
+          "measure HDR-FLIP at snapshots, too: what an observer sees; costs like one frame or two each time"},
       config.flip);
   visit(
       KnobInfo{

@@ -16,6 +16,12 @@ namespace {
 
 constexpr std::uint32_t kNotFinite = 0x00ff00;
 
+// Between 0 at the bottom of the scale and 1 at its top.
+double position(double error, const HeatScale& scale) {
+  if (scale.bottom == 0) return error / scale.top;
+  return std::log(std::max(error, scale.bottom) / scale.bottom) / std::log(scale.top / scale.bottom);
+}
+
 void write_png(const std::filesystem::path& file, int width, int height,
                const std::vector<std::uint8_t>& pixels) {
   AtomicFile target(file);
@@ -45,6 +51,8 @@ HeatScale heat_scale(PixelError metric, const std::vector<double>& errors, doubl
     if (scale.top == 0) scale.top = *std::max_element(finite.begin(), finite.end());
     if (scale.top == 0) scale.top = 1;
   }
+  const bool squared = metric == PixelError::mse || metric == PixelError::relmse;
+  if (squared) scale.bottom = scale.top * std::pow(10, -kHeatDecades);
   scale.above = static_cast<std::size_t>(
       std::count_if(finite.begin(), finite.end(), [&](double error) { return error > scale.top; }));
   return scale;
@@ -56,7 +64,7 @@ std::vector<std::uint8_t> heat_colours(const std::vector<double>& errors, const 
   for (const double error : errors) {
     std::uint32_t colour = kNotFinite;
     if (std::isfinite(error)) {
-      const double share = std::clamp(error / scale.top, 0.0, 1.0);
+      const double share = std::clamp(position(error, scale), 0.0, 1.0);
       colour = kMagma[static_cast<std::size_t>(std::lround(share * (kMagma.size() - 1)))];
     }
     for (const int shift : {16, 8, 0}) pixels.push_back(static_cast<std::uint8_t>(colour >> shift & 0xffU));

@@ -11,14 +11,16 @@
 
 namespace qtrace::experiments {
 
-// Which error is white-hot. Linear from 0, which is black; values above `top` have its colour.
+// Which error has which colour. Errors below and above have the colour of the end.
 struct HeatScale {
-  double top = 1;
-  std::size_t above = 0;       // pixels beyond it
+  double bottom = 0;  // black; above zero the scale is logarithmic, else linear
+  double top = 1;     // pale yellow
+  std::size_t above = 0;
   std::size_t not_finite = 0;  // green, a colour that magma does not have
 };
 
 constexpr double kHeatQuantile = 0.99;
+constexpr double kHeatDecades = 4;  // of squared errors, whose noise spans many; others are linear from 0
 
 // FLIP ends at 1. Other metrics: at `top` where it is given, else at the 99th percentile of the finite values
 // (their largest where that is 0), as a few fireflies would leave the rest of a map black.

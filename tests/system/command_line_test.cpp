@@ -155,7 +155,8 @@ TEST_F(CommandLine, CompareTakesLayersAndDrawsHeatMaps) {
                                   "--heat", "heat.png", "--heat-metric", "mse", "--heat-max", "8"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "\nmse                 2 ")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "heat map heat.png: mse per pixel, magma, linear from 0 (black) to 8"))
+  EXPECT_TRUE(
+      contains(outcome.out, "heat map heat.png: mse per pixel, magma, logarithmic from 0.0008 (black) to 8"))
       << outcome.out;
   EXPECT_EQ(folder_.read("heat.png").substr(1, 3), "PNG");
   EXPECT_EQ(qtrace({"compare", "two.exr", "two.exr", "--layer", "b", "--heat-metric", "psnr"}).exit_code, 2);

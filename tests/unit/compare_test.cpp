@@ -106,8 +106,9 @@ TEST_F(Compare, TheHeatMapHasTheErrorOfEveryPixel) {
   EXPECT_EQ(read_exr(options_.heat).channels.at("Y"), (std::vector<float>{9, 9}));
   options_.heat = folder_ / "heat.png";
   options_.heat_top = 3;
-  expect(compare(),
-         {"heat.png: mse per pixel, magma, linear from 0 (black) to 3 (pale yellow); 2 of 2 pixels"});
+  expect(
+      compare(),
+      {"heat.png: mse per pixel, magma, logarithmic from 0.0003 (black) to 3 (pale yellow); 2 of 2 pixels"});
 }
 
 TEST_F(Compare, NothingIsWrittenWhereSomethingIsWrong) {

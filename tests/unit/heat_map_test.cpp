@@ -27,6 +27,8 @@ TEST(HeatMap, ScalesEndAtTheNinetyNinthPercentile) {
   errors.push_back(kNan);
   const HeatScale scale = heat_scale(PixelError::mse, errors);
   EXPECT_EQ(scale.top, 99);
+  EXPECT_EQ(scale.bottom, 99e-4);  // four decades
+  EXPECT_EQ(heat_scale(PixelError::smape, errors).bottom, 0);
   EXPECT_EQ(scale.above, 1U);
   EXPECT_EQ(scale.not_finite, 1U);
   EXPECT_EQ(heat_scale(PixelError::mse, errors, 50).top, 50);
@@ -39,7 +41,7 @@ TEST(HeatMap, ScalesEndAtTheNinetyNinthPercentile) {
 }
 
 TEST(HeatMap, ColoursRunFromBlackToPaleYellow) {
-  const std::vector<std::uint8_t> pixels = heat_colours({0, 1, 2, 9, kNan}, HeatScale{2, 1, 1});
+  const std::vector<std::uint8_t> pixels = heat_colours({0, 1, 2, 9, kNan}, HeatScale{0, 2, 1, 1});
   EXPECT_EQ(colour(pixels, 0), 0x000004U);  // magma's ends and middle, as matplotlib has them
   EXPECT_EQ(colour(pixels, 1), 0xb73779U);
   EXPECT_EQ(colour(pixels, 2), 0xfcfdbfU);
@@ -47,10 +49,22 @@ TEST(HeatMap, ColoursRunFromBlackToPaleYellow) {
   EXPECT_EQ(colour(pixels, 4), 0x00ff00U);
 }
 
+TEST(HeatMap, SquaredErrorsAreLogarithmic) {
+  // 1e-2 to 1e2: 1 is the middle, 10 three quarters: entries round(127.5) = 128 and round(191.25) = 191.
+  const std::vector<std::uint8_t> pixels =
+      heat_colours({0, 1e-2, 1, 10, 1e2, 1e3}, HeatScale{1e-2, 1e2, 1, 0});
+  EXPECT_EQ(colour(pixels, 0), 0x000004U);
+  EXPECT_EQ(colour(pixels, 1), 0x000004U);
+  EXPECT_EQ(colour(pixels, 2), 0xb73779U);
+  EXPECT_EQ(colour(pixels, 3), 0xfb8761U);
+  EXPECT_EQ(colour(pixels, 4), 0xfcfdbfU);
+  EXPECT_EQ(colour(pixels, 5), 0xfcfdbfU);
+}
+
 TEST(HeatMap, PngHasItsPixelsInPlace) {
   const tests::TempFolder folder;
   const std::vector<double> errors{0, 1, 2, 2, 0, 1};  // 3x2
-  write_heat_map(folder / "heat.png", PixelError::mse, 3, 2, errors, HeatScale{2, 0, 0});
+  write_heat_map(folder / "heat.png", PixelError::mse, 3, 2, errors, HeatScale{0, 2, 0, 0});
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "heat.png").c_str()), 0);
@@ -59,7 +73,7 @@ TEST(HeatMap, PngHasItsPixelsInPlace) {
   image.format = PNG_FORMAT_RGB;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   ASSERT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);
-  EXPECT_EQ(pixels, heat_colours(errors, HeatScale{2, 0, 0}));
+  EXPECT_EQ(pixels, heat_colours(errors, HeatScale{0, 2, 0, 0}));
 }
 
 TEST(HeatMap, ExrHasTheValues) {
