@@ -157,6 +157,12 @@ LayerList list_layers(const Imf::MultiPartInputFile& file) {
   return list;
 }
 
+std::vector<const ExrLayer*> layers_named(const LayerList& list, const std::string& name) {
+  auto found = matching(list, [&](const ExrLayer& layer) { return layer.name == name; });
+  if (!found.empty()) return found;
+  return matching(list, [&](const ExrLayer& layer) { return layer.name.ends_with('.' + name); });
+}
+
 const ExrLayer& choose_layer(const LayerList& list, const std::string& name) {
   if (name.empty()) {
     for (const LayerTest& test :
@@ -170,10 +176,7 @@ const ExrLayer& choose_layer(const LayerList& list, const std::string& name) {
          any ? "has several images: name one" : "has no channels R, G, B, nor X, Y, Z or Y",
          what_is_there(list));
   }
-  auto found = matching(list, [&](const ExrLayer& layer) { return layer.name == name; });
-  if (found.empty()) {
-    found = matching(list, [&](const ExrLayer& layer) { return layer.name.ends_with('.' + name); });
-  }
+  const auto found = layers_named(list, name);
   check(!found.empty(), "has no layer '{}'; its layers are: {}", name, what_is_there(list));
   check(found.size() == 1, "has several layers '{}'; its layers are: {}", name, what_is_there(list));
   return *found.front();

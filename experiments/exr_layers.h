@@ -36,9 +36,12 @@ struct LayerList {
 
 LayerList list_layers(const Imf::MultiPartInputFile& file);
 
-// The layer of this name or of this last part of a name (Combined for ViewLayer.Combined). Without a name:
-// the channels outside any layer, else the only image in colour or grey, else the only one called combined,
-// beauty, rgba, rgb or color. Throws Error that lists what is there.
+// Those of this name, or else those whose name ends in it (Combined for ViewLayer.Combined).
+std::vector<const ExrLayer*> layers_named(const LayerList& list, const std::string& name);
+
+// The only layer of this name. Without a name: the channels outside any layer, else the only image in colour
+// or grey, else the only one called combined, beauty, rgba, rgb or color. Throws Error that lists what is
+// there.
 const ExrLayer& choose_layer(const LayerList& list, const std::string& name);
 
 }  // namespace qtrace::experiments

@@ -142,13 +142,7 @@ Picture read_picture(const fs::path& file, const std::string& wanted) {
 }
 
 bool has_layer(const fs::path& file, const std::string& layer) {
-  const auto input = open(file);
-  try {
-    choose_layer(list_layers(*input), layer);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
+  return !layers_named(list_layers(*open(file)), layer).empty();
 }
 
 RadianceImage crop(const Picture& picture, const PixelBox& box) {

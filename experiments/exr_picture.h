@@ -32,7 +32,7 @@ struct Picture {
 // Throws Error that names the file and what is in it: unreadable, no such layer, several that fit.
 Picture read_picture(const std::filesystem::path& file, const std::string& layer = "");
 
-// Whether read_picture would find this layer. Throws Error only where the file is unreadable.
+// Whether the file has such a layer, or several. Throws Error where it is unreadable.
 bool has_layer(const std::filesystem::path& file, const std::string& layer);
 
 // The part of the picture within `box`, which must lie within its data window.

@@ -81,7 +81,10 @@ void write_heat_map(const std::filesystem::path& file, PixelError metric, int wi
                     const std::vector<double>& errors, const HeatScale& scale) {
   check_heat_file(file);
   if (file.extension() == ".png") return write_png(file, width, height, heat_colours(errors, scale));
-  ExrImage exr{width, height, {}, {{"metric", std::string(enum_name(metric))}}};
+  ExrImage exr{width, height, {}, {}};
+  exr.metadata = {{"metric", std::string(enum_name(metric))},
+                  {"heatBottom", fmt::format("{}", scale.bottom)},
+                  {"heatTop", fmt::format("{}", scale.top)}};
   exr.channels["Y"].assign(errors.begin(), errors.end());
   write_exr(file, exr);
 }
