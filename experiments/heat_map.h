@@ -32,7 +32,7 @@ std::vector<std::uint8_t> heat_colours(const std::vector<double>& errors, const 
 // Throws Error unless the name ends in .png or .exr.
 void check_heat_file(const std::filesystem::path& file);
 
-// False colours, or with .exr the values in a channel Y, with the metric's name in the metadata. Whole or not
+// False colours, or with .exr the values in a channel Y, with metric and scale in the metadata. Whole or not
 // at all. Throws Error that names the file.
 void write_heat_map(const std::filesystem::path& file, PixelError metric, int width, int height,
                     const std::vector<double>& errors, const HeatScale& scale);

@@ -90,6 +90,15 @@ TEST_F(Compare, LayersAreChosenForEachFile) {
   expect(compare(), {"mse                 0 "});
   options_.reference_layer = "<root>";
   expect(compare(), {"mse                 9 "});
+  TestPart twice = rgb(1, kFrame, kFrame);
+  for (const char* prefix : {"a.filtered.", "b.filtered."}) {
+    for (const auto& channel : rgb(6, kFrame, kFrame, prefix).channels) twice.channels.push_back(channel);
+  }
+  options_.reference = folder_ / "twice.exr";
+  tests::write_scan_lines(options_.reference, twice);
+  options_.reference_layer = "";
+  expect(compare(), {"twice.exr: has several layers 'filtered'; its layers are: <root> ("});
+  options_.reference = options_.image;
   options_.reference_layer = "beauty";
   expect(compare(), {"has no layer 'beauty'; its layers are: <root> (R, G, B), filtered ("});
 }

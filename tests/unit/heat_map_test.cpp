@@ -78,10 +78,12 @@ TEST(HeatMap, PngHasItsPixelsInPlace) {
 
 TEST(HeatMap, ExrHasTheValues) {
   const tests::TempFolder folder;
-  write_heat_map(folder / "heat.exr", PixelError::smape, 2, 1, {0.25, 1e6}, HeatScale{});
+  write_heat_map(folder / "heat.exr", PixelError::smape, 2, 1, {0.25, 1e6}, HeatScale{0, 0.5, 1, 0});
   const ExrImage exr = read_exr(folder / "heat.exr");
   EXPECT_EQ(exr.channels.at("Y"), (std::vector<float>{0.25F, 1e6F}));
   EXPECT_EQ(exr.metadata.at("metric"), "smape");
+  EXPECT_EQ(exr.metadata.at("heatBottom"), "0");
+  EXPECT_EQ(exr.metadata.at("heatTop"), "0.5");
 }
 
 TEST(HeatMap, FailuresNameTheFileAndLeaveWhatIsThere) {
