@@ -1,0 +1,61 @@
+// The independent tracer against closed forms, and the renderer against the independent tracer.
+#include "tests/independent/comparison.h"
+#include "tests/independent/path_tracer.h"
+
+#include "engine/scene/analytic.h"
+
+#include <gtest/gtest.h>
+
+namespace qtrace::independent {
+namespace {
+
+TEST(Independent, FindsTheFurnacesNeumannSum) {
+  const Scene scene = furnace_box(0.7F, 1.5F);
+  for (const int bounces : {0, 1, 5}) {
+    SCOPED_TRACE(bounces);
+    Options options;
+    options.width = options.height = 8;
+    options.samples = 1;
+    options.max_bounces = bounces;
+    options.sample_lights = false;
+    // In a furnace, every path brings the same.
+    for (const glm::dvec3& pixel : trace(scene, options).mean) {
+      EXPECT_NEAR(pixel.x, furnace_radiance(double{0.7F}, 1.5, bounces), 1e-12);
+    }
+  }
+}
+
+TEST(Independent, FindsTheFloorUnderALight) {
+  const LitFloor lit = lit_floor(0.8F, 3, 1, 2);
+  Options options;
+  options.width = options.height = 1;
+  options.max_bounces = 1;
+  options.samples = 20'000;
+  Scene scene = lit.scene;
+  scene.camera = look_at({3, 1, 3}, {0.5F, 0, 0.25F}, 1e-4F);
+  for (const bool sample_lights : {true, false}) {
+    options.sample_lights = sample_lights;
+    if (!sample_lights) options.samples *= 10;
+    const Image image = trace(scene, options);
+    EXPECT_NEAR(image.mean[0].x, lit.radiance(0.5, 0.25), 4 * std::sqrt(image.variance[0].x))
+        << sample_lights;
+    EXPECT_LT(std::sqrt(image.variance[0].x), 0.02 * image.mean[0].x);
+  }
+}
+
+class Shipped : public testing::TestWithParam<const char*> {};
+
+TEST_P(Shipped, TheReferencesSamplerAgrees) {
+  Comparison comparison(GetParam(), {.size = 32, .samples = 256});
+  const Agreement found = comparison.measure(Sampler::bsdf, Nee::one_ray, 256);
+  EXPECT_TRUE(found.agrees(kQuickChance)) << found.text();
+  EXPECT_EQ(found.non_finite, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Shipped, testing::ValuesIn(kScenes), [](const auto& scene) {
+  const std::string name = scene.param;
+  return name.substr(0, name.find('.'));
+});
+
+}  // namespace
+}  // namespace qtrace::independent

@@ -1,0 +1,172 @@
+#include "tests/independent/path_tracer.h"
+
+#include "tests/independent/bvh.h"
+#include "tests/independent/material.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <thread>
+
+namespace qtrace::independent {
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+
+struct Random {
+  std::mt19937_64 bits;
+  double operator()() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+};
+
+// A point that scatters, as seen by `eye`.
+struct Point {
+  glm::dvec3 position, eye;  // eye: direction towards where the ray came from
+  glm::dvec3 face, normal;   // geometric and interpolated, on the side of the eye
+  bool from_front = true;
+  const Material* material = nullptr;
+};
+
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const Options& options) : scene_(scene), options_(options), bvh_(scene) {
+    double sum = 0;
+    glm::dvec3 lo(1e300), hi(-1e300);
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      for (const glm::vec3& p : scene.triangles[i].position)
+        lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
+      const glm::dvec3 emission(scene.materials[scene.triangles[i].material].emission);
+      const double power = area_of(scene.triangles[i]) * (emission.x + emission.y + emission.z);
+      if (power <= 0) continue;
+      lights_.push_back(i);
+      chances_.push_back(power);
+      sums_.push_back(sum += power);
+    }
+    epsilon_ = 1e-9 * glm::length(hi - lo);
+  }
+
+  glm::dvec3 sample(int x, int y, Random& random) const {
+    Ray ray = camera_ray(x + random(), y + random());
+    glm::dvec3 radiance(0), throughput(1);
+    for (int bounce = 0;; ++bounce) {
+      const Hit hit = bvh_.closest(ray, epsilon_);
+      if (!hit) return radiance;
+      const Point p = point(ray, hit);
+      if (bounce == 0 || !options_.sample_lights) radiance += throughput * emitted(*p.material, p.from_front);
+      if (bounce == options_.max_bounces) return radiance;
+      if (options_.sample_lights) radiance += throughput * direct(p, random);
+      // Cosine-weighted about the interpolated normal: f cos / pdf = pi f.
+      const glm::dvec3 direction = cosine_direction(p.normal, random);
+      if (glm::dot(direction, p.face) <= 0) return radiance;
+      throughput *= kPi * reflect(*p.material, p.normal, direction, p.eye);
+      if (throughput == glm::dvec3(0)) return radiance;
+      ray = {p.position, direction};
+    }
+  }
+
+ private:
+  Ray camera_ray(double x, double y) const {
+    const glm::dmat4 m(scene_.camera.world_from_camera);
+    const double up = std::tan(0.5 * scene_.camera.vertical_fov);
+    const double right = up * options_.width / options_.height;
+    const glm::dvec4 d((2 * x / options_.width - 1) * right, (1 - 2 * y / options_.height) * up, -1, 0);
+    return {glm::dvec3(m[3]), glm::normalize(glm::dvec3(m * d))};
+  }
+
+  Point point(const Ray& ray, const Hit& hit) const {
+    const Triangle& t = scene_.triangles[hit.triangle];
+    Point p;
+    p.position = ray.origin + hit.t * ray.direction;
+    p.eye = -glm::normalize(ray.direction);
+    p.material = &scene_.materials[t.material];
+    const glm::dvec3 face = glm::normalize(area_vector(t.position));
+    p.from_front = glm::dot(face, p.eye) > 0;
+    const double side = p.from_front ? 1 : -1;
+    p.face = side * face;
+    p.normal = side * glm::normalize((1 - hit.u - hit.v) * glm::dvec3(t.normal[0]) +
+                                     hit.u * glm::dvec3(t.normal[1]) + hit.v * glm::dvec3(t.normal[2]));
+    if (!(glm::dot(p.normal, p.eye) > 0)) p.normal = p.face;  // it faces away from the ray, or is none
+    return p;
+  }
+
+  static glm::dvec3 emitted(const Material& material, bool front) {
+    return front || material.double_sided ? glm::dvec3(material.emission) : glm::dvec3(0);
+  }
+
+  // One point on one light, both by power.
+  glm::dvec3 direct(const Point& p, Random& random) const {
+    if (lights_.empty()) return glm::dvec3(0);
+    const auto found = std::upper_bound(sums_.begin(), sums_.end(), random() * sums_.back()) - sums_.begin();
+    const auto i = std::min(static_cast<std::size_t>(found), lights_.size() - 1);
+    const Triangle& light = scene_.triangles[lights_[i]];
+    const double root = std::sqrt(random());
+    const double part = random();
+    const glm::dvec3 target = (1 - root) * glm::dvec3(light.position[0]) +
+                              root * (1 - part) * glm::dvec3(light.position[1]) +
+                              root * part * glm::dvec3(light.position[2]);
+    const glm::dvec3 way = target - p.position;
+    const double distance2 = glm::dot(way, way);
+    const glm::dvec3 direction = way / std::sqrt(distance2);
+    const double facing = -glm::dot(glm::normalize(area_vector(light.position)), direction);
+    const glm::dvec3 radiance = emitted(scene_.materials[light.material], facing > 0);
+    if (glm::dot(direction, p.normal) <= 0 || glm::dot(direction, p.face) <= 0 || radiance == glm::dvec3(0)) {
+      return glm::dvec3(0);
+    }
+    const double relative = epsilon_ / std::sqrt(distance2);
+    if (bvh_.closest({p.position, way}, relative, 1 - relative)) return glm::dvec3(0);
+    const double pdf = chances_[i] / sums_.back() / area_of(light);
+    return reflect(*p.material, p.normal, direction, p.eye) * radiance *
+           (glm::dot(direction, p.normal) * std::abs(facing) / distance2 / pdf);
+  }
+
+  static glm::dvec3 cosine_direction(const glm::dvec3& n, Random& random) {
+    // A point of the unit sphere about the tip of the normal.
+    const double z = 1 - 2 * random();
+    const double phi = 2 * kPi * random();
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    return glm::normalize(n + glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
+  }
+
+  const Scene& scene_;
+  Options options_;
+  Bvh bvh_;
+  std::vector<std::uint32_t> lights_;
+  std::vector<double> chances_, sums_;
+  double epsilon_ = 0;
+};
+
+}  // namespace
+
+Image trace(const Scene& scene, const Options& options) {
+  const Tracer tracer(scene, options);
+  const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+  Image image{std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels)};
+  const auto render_pixel = [&](std::size_t i) {
+    Random random{std::mt19937_64(options.seed * 0x9e3779b97f4a7c15ULL + i)};
+    glm::dvec3 sum(0), squares(0);
+    for (int s = 0; s < options.samples; ++s) {
+      const auto width = static_cast<std::size_t>(options.width);
+      const glm::dvec3 radiance =
+          tracer.sample(static_cast<int>(i % width), static_cast<int>(i / width), random);
+      sum += radiance;
+      squares += radiance * radiance;
+    }
+    const double n = options.samples;
+    image.mean[i] = sum / n;
+    image.variance[i] = glm::max(squares / n - image.mean[i] * image.mean[i], 0.0) / (n - 1);
+  };
+  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::jthread> workers;
+  for (std::size_t k = 0; k < threads; ++k) {
+    workers.emplace_back([&, k] {
+      for (std::size_t i = k; i < pixels; i += threads) render_pixel(i);
+    });
+  }
+  workers.clear();  // joins
+  return image;
+}
+
+}  // namespace qtrace::independent

@@ -1,0 +1,34 @@
+// An independent check of the renderer: a path tracer on the CPU in double precision. It takes the scene's
+// plain data and shares no code with the engine or its shaders: its own intersection, materials, light
+// samples, random numbers. To be read in five minutes: bvh.cpp finds hits, material.cpp is glTF's appendix B,
+// path_tracer.cpp follows paths.
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace qtrace::independent {
+
+struct Options {
+  int width = 64;
+  int height = 64;
+  int max_bounces = 5;  // scattering events; no Russian roulette
+  int samples = 64;     // per pixel
+  std::uint64_t seed = 1;
+  // Light samples instead of the emission that paths run into. Of no use where lights touch what they light:
+  // the squared distance in the denominator then makes rare, huge contributions.
+  bool sample_lights = true;
+};
+
+struct Image {
+  std::vector<glm::dvec3> mean;      // radiance, row by row from the top
+  std::vector<glm::dvec3> variance;  // of that mean
+};
+
+Image trace(const Scene& scene, const Options& options);
+
+}  // namespace qtrace::independent
