@@ -12,6 +12,7 @@ namespace qtrace::independent {
 namespace {
 
 constexpr int kBounces = 5;
+constexpr double kNoNoise = 1e-5;   // standard error, relative
 constexpr double kRounding = 1e-6;  // of an image in single precision, relative
 
 double mean_of(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
@@ -21,6 +22,18 @@ double mean_of(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
 double variance_of(const glm::dvec3& v) {
   const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
   return deviation * deviation;
+}
+
+// Mean over the channels that are not the same whatever the path, where single precision is all that differs;
+// -1 if there is none.
+double channel_chi2(const glm::dvec3& difference, const glm::dvec3& variance, const glm::dvec3& truth) {
+  double sum = 0, channels = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (std::sqrt(variance[k]) < kNoNoise * truth[k] || variance[k] == 0) continue;
+    sum += difference[k] * difference[k] / variance[k];
+    ++channels;
+  }
+  return channels > 0 ? sum / channels : -1;
 }
 
 Scene load(const std::string& name) {
@@ -68,9 +81,9 @@ Agreement Comparison::compare(const RadianceImage& image) const {
     const double var_x = variance_of(image.variance[i]);
     const double var_y = variance_of(truth_.variance[i]);
     a += x, b += y, var_a += var_x, var_b += var_y;
-    // Where every path brings the same, single precision is all that differs.
-    if (std::sqrt(var_x + var_y) < 1e-5 * y) continue;
-    const double c = (x - y) * (x - y) / (var_x + var_y);
+    const double c =
+        channel_chi2(image.mean[i] - truth_.mean[i], image.variance[i] + truth_.variance[i], truth_.mean[i]);
+    if (c < 0) continue;
     chi2 += c, chi4 += c * c, ++counted;
   }
   result.mean_ratio = a / b;

@@ -19,8 +19,8 @@ inline constexpr std::array kScenes{"simple.glb",      "occluded.glb", "cornell_
 inline constexpr double kQuickChance = 1e-4;
 
 struct Agreement {
-  // Mean over pixels of (a - b)^2 / (var a + var b), a and b being means over channels: 1 but for chance, if
-  // the images are the same.
+  // Mean over pixels and channels of (a - b)^2 / (var a + var b): 1 but for chance, if the images are the
+  // same.
   double chi2_per_pixel = 0;
   double chi2_error = 0;  // its standard error
   double mean_ratio = 0;  // of the images' means, the renderer's over the tracer's

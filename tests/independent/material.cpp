@@ -12,14 +12,10 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-// B.2.3: the microfacet distribution D and the visibility V = G / (4 |N.L| |N.V|), with a chi of 1.
-double specular_brdf(double alpha, double n_l, double n_v, double n_h) {
+// B.2.3: the visibility V = G / (4 |N.L| |N.V|), with a chi of 1.
+double visibility(double alpha, double n_l, double n_v) {
   const double a2 = alpha * alpha;
-  const double f = n_h * n_h * (a2 - 1) + 1;
-  const double d = a2 / (kPi * f * f);
-  const double v =
-      0.5 / (n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2));
-  return v * d;
+  return 0.5 / (n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2));
 }
 
 glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double v_h) {
@@ -28,15 +24,24 @@ glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double v_h) {
 
 }  // namespace
 
+bool has_lobe(const Material& m) { return m.metallic > 0 || m.specular > 0; }
+
+// B.2.3: D.
+double facet_distribution(const Material& m, double n_h) {
+  const double a2 = std::pow(double{m.roughness}, 4);
+  const double f = n_h * n_h * (a2 - 1) + 1;
+  return a2 / (kPi * f * f);
+}
+
 glm::dvec3 reflect(const Material& m, const glm::dvec3& n, const glm::dvec3& to_light,
                    const glm::dvec3& to_eye) {
   const glm::dvec3 h = glm::normalize(to_light + to_eye);
   const double v_h = glm::dot(to_eye, h);
   const glm::dvec3 base(m.base_color);
   const double alpha = double{m.roughness} * m.roughness;
-  const bool has_lobe = m.metallic > 0 || m.specular > 0;
-  const double lobe =
-      has_lobe ? specular_brdf(alpha, glm::dot(n, to_light), glm::dot(n, to_eye), glm::dot(n, h)) : 0;
+  const double lobe = has_lobe(m) ? facet_distribution(m, glm::dot(n, h)) *
+                                        visibility(alpha, glm::dot(n, to_light), glm::dot(n, to_eye))
+                                  : 0;
   // The dielectric of index 1.5, as the extension scales it.
   const glm::dvec3 f0 = glm::min(0.04 * glm::dvec3(m.specular_color), glm::dvec3(1)) * double{m.specular};
   const glm::dvec3 f = fresnel(f0, m.specular, v_h);

@@ -58,10 +58,10 @@ class Tracer {
       if (bounce == 0 || !options_.sample_lights) radiance += throughput * emitted(*p.material, p.from_front);
       if (bounce == options_.max_bounces) return radiance;
       if (options_.sample_lights) radiance += throughput * direct(p, random);
-      // Cosine-weighted about the interpolated normal: f cos / pdf = pi f.
-      const glm::dvec3 direction = cosine_direction(p.normal, random);
-      if (glm::dot(direction, p.face) <= 0) return radiance;
-      throughput *= kPi * reflect(*p.material, p.normal, direction, p.eye);
+      const glm::dvec3 direction = scattered(p, random);
+      const double cosine = glm::dot(direction, p.normal);
+      if (cosine <= 0 || glm::dot(direction, p.face) <= 0) return radiance;
+      throughput *= reflect(*p.material, p.normal, direction, p.eye) * (cosine / density(p, direction));
       if (throughput == glm::dvec3(0)) return radiance;
       ray = {p.position, direction};
     }
@@ -122,12 +122,30 @@ class Tracer {
            (glm::dot(direction, p.normal) * std::abs(facing) / distance2 / pdf);
   }
 
-  static glm::dvec3 cosine_direction(const glm::dvec3& n, Random& random) {
-    // A point of the unit sphere about the tip of the normal.
-    const double z = 1 - 2 * random();
+  // Half of all directions go by the cosine, half by the microfacets; all by the cosine where there are none.
+  static glm::dvec3 scattered(const Point& p, Random& random) {
     const double phi = 2 * kPi * random();
-    const double r = std::sqrt(std::max(0.0, 1 - z * z));
-    return glm::normalize(n + glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
+    const double u = random();
+    if (!has_lobe(*p.material) || random() < 0.5) return about(p.normal, std::sqrt(1 - u), phi);
+    const double a2 = std::pow(double{p.material->roughness}, 4);
+    const glm::dvec3 h = about(p.normal, std::sqrt((1 - u) / (1 + (a2 - 1) * u)), phi);
+    return 2 * glm::dot(p.eye, h) * h - p.eye;
+  }
+
+  static double density(const Point& p, const glm::dvec3& direction) {
+    const double by_cosine = glm::dot(direction, p.normal) / kPi;
+    if (!has_lobe(*p.material)) return by_cosine;
+    const glm::dvec3 h = glm::normalize(direction + p.eye);
+    const double n_h = glm::dot(p.normal, h);
+    return 0.5 * by_cosine + 0.5 * facet_distribution(*p.material, n_h) * n_h / (4 * glm::dot(p.eye, h));
+  }
+
+  // The direction at an angle of this cosine to n.
+  static glm::dvec3 about(const glm::dvec3& n, double cosine, double phi) {
+    const glm::dvec3 other = std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 t = glm::normalize(glm::cross(n, other));
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    return glm::normalize(cosine * n + sine * (std::cos(phi) * t + std::sin(phi) * glm::cross(n, t)));
   }
 
   const Scene& scene_;

@@ -2,7 +2,9 @@
 #include "tests/independent/comparison.h"
 
 #include <fmt/format.h>
+
 #include <gtest/gtest.h>
+#include <cstdio>
 
 namespace qtrace::independent {
 namespace {
@@ -10,19 +12,20 @@ namespace {
 constexpr double kPrecision =
     1e-3;  // of the mean's ratio: three standard errors are compared where it is reached
 constexpr double kChance = 1e-4;
-constexpr int kFrames = 1 << 10;
-constexpr int kMostFrames = 1 << 13;  // what is noisier after these states its precision
+constexpr int kFrames = 1 << 8;
+constexpr int kMostFrames = 1 << 11;  // what is noisier after these states its precision
 
 class SlowIndependent : public testing::TestWithParam<const char*> {};
 
 TEST_P(SlowIndependent, EveryMethodAgrees) {
-  const Comparison comparison(GetParam(), {.size = 32, .samples = 1 << 14});
+  const Comparison comparison(GetParam(), {.size = 64, .samples = 1 << 12});
   for (const Sampler sampler : {Sampler::bsdf, Sampler::uniform, Sampler::rl}) {
     for (const Nee nee : {Nee::none, Nee::one_ray, Nee::two_ray}) {
       const Agreement found = comparison.measure(sampler, nee, kFrames, kMostFrames, kPrecision);
       const std::string line =
           fmt::format("{:16} {:8} {:8} {}", GetParam(), enum_name(sampler), enum_name(nee), found.text());
       fmt::print("{}\n", line);
+      std::fflush(stdout);
       EXPECT_TRUE(found.agrees(kChance)) << line;
       EXPECT_NEAR(found.chi2_per_pixel, 1, 0.1) << line;
       EXPECT_EQ(found.non_finite, 0U);
