@@ -12,5 +12,9 @@ uvec2 pixel_of_invocation() {
   uint lane = gl_LocalInvocationID.x;
   uvec2 in_block = uvec2(lane & 3u, (lane >> 2u) & 1u);
   uvec2 block = uvec2((lane >> 3u) & 1u, lane >> 4u);
-  return gl_WorkGroupID.xy * 8u + block * uvec2(4u, 2u) + in_block;
+  uvec2 group = gl_WorkGroupID.xy;
+#ifdef GROUPS_BACKWARDS  // tests: the order of work groups must not matter
+  group = gl_NumWorkGroups.xy - 1u - group;
+#endif
+  return group * 8u + block * uvec2(4u, 2u) + in_block;
 }

@@ -18,16 +18,22 @@ namespace {
 // Small leaves: every ray of a SIMD group pays for the longest leaf among them.
 constexpr std::uint32_t kLeafTriangles = 4;
 
+gpu::Defines joined(gpu::Defines defines, const gpu::Defines& more) {
+  defines.insert(more.begin(), more.end());
+  return defines;
+}
+
 }  // namespace
 
 struct Tracer::State {
-  State(const gpu::Context& gpu_context, const Scene& scene, const RenderSettings& wanted)
+  State(const gpu::Context& gpu_context, const Scene& scene, const RenderSettings& wanted,
+        const gpu::Defines& more)
       : context(gpu_context),
         buffers(scene, build_median_bvh(scene, kLeafTriangles), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height),
         parameter_block("parameters", sizeof(gpu::Parameters)),
-        trace("trace.comp", shader_defines(settings, buffers.features())) {
+        trace("trace.comp", joined(shader_defines(settings, buffers.features()), more)) {
     if (has_table(settings)) {
       table.emplace(scene, settings.rl, table_columns(settings, buffers.features()),
                     shader_defines(settings, buffers.features()));
@@ -37,8 +43,8 @@ struct Tracer::State {
     parameter_block.write(0, &parameters, sizeof(parameters));
     warnings = buffers.warnings();
     if (table) {
-      const std::vector<std::string>& more = table->cells().warnings();
-      warnings.insert(warnings.end(), more.begin(), more.end());
+      const std::vector<std::string>& of_cells = table->cells().warnings();
+      warnings.insert(warnings.end(), of_cells.begin(), of_cells.end());
     }
   }
 
@@ -79,9 +85,10 @@ struct Tracer::State {
   bool learning = true;
 };
 
-Tracer::Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
+Tracer::Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings,
+               const gpu::Defines& more) {
   check_limits(context, scene, settings);
-  state_ = std::make_unique<State>(context, scene, settings);
+  state_ = std::make_unique<State>(context, scene, settings, more);
   state_->warm_up();
 }
 

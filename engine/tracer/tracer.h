@@ -19,7 +19,9 @@ class Tracer {
  public:
   // Builds everything, compiles and warms up the shaders, so that the first frame is like the others.
   // Throws Error where the device cannot hold the scene or the table. The context must outlive the tracer.
-  Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
+  // `more`: defines of the tracing shader besides those of the settings, for tests of it.
+  Tracer(const gpu::Context& context, const Scene& scene, const RenderSettings& settings,
+         const gpu::Defines& more = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;

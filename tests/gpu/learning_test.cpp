@@ -94,6 +94,7 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
   EXPECT_TRUE(is_cut(SiteSearch::tree, "10000"));
 }
 
+// The second time with its work groups in the opposite order.
 TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb");
   RenderSettings settings;
@@ -101,8 +102,8 @@ TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {
   settings.rl.sites_per_object = 20;
   std::vector<RadianceImage> images;
   std::vector<std::vector<float>> tables;
-  for (int i = 0; i < 2; ++i) {
-    Tracer tracer(device(), scene, settings);
+  for (const gpu::Defines& order : {gpu::Defines{}, gpu::Defines{{"GROUPS_BACKWARDS", "1"}}}) {
+    Tracer tracer(device(), scene, settings, order);
     images.push_back(render(tracer, 8).image);
     tables.push_back(tracer.table()->values());
   }

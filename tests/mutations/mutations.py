@@ -14,6 +14,8 @@ class Mutation:
 MUTATIONS = [
     Mutation("camera rays through pixel corners alone", "trace.comp", "vec2(pixel) + jitter", "vec2(pixel)"),
     Mutation("random numbers without the frame", "random.glsl", "key.frame", "0u"),
+    Mutation("random numbers keyed by the work group", "trace.comp", "RandomKey(index, frame_number",
+             "RandomKey(gl_WorkGroupID.y * 65536u + gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x, frame_number"),
     Mutation("one bounce too many", "path.glsl", "going_on = bounce < parameters.path.x && scatter",
              "going_on = bounce < parameters.path.x + 1u && scatter"),
     Mutation("roulette without its weight", "path.glsl", "path.throughput /= survival;", ""),

@@ -1,0 +1,57 @@
+// The same seed gives the same bits with any number of threads of the software driver.
+#include "tests/system/program.h"
+#include "tests/system/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace qtrace::tests {
+namespace {
+
+constexpr const char* kConfig = R"({
+  "name": "bits", "scene": ")" QTRACE_SOURCE_DIR
+                                R"(/configs/scenes/cornell_box.glb", "width": 40, "height": 40, "frames": 6,
+  "save_table": "last", "reference": { "frames": 4 }, "sampler": "rl", "lights": "learned",
+  "rl": { "sites_per_object": 30, "bins_theta": 4, "bins_phi": 6 },
+  "sweep": [ { "nee": ["none", "one_ray", "two_ray"] },
+             { "rl.update": ["expected_sarsa", "monte_carlo"] } ]
+})";
+
+// Variables of the environment for as long as it lives; programs that are started inherit them.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
+  ~Environment() { ::unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST(Determinism, ThreadsDoNotChangeABit) {
+  if (std::getenv("LP_NUM_THREADS") != nullptr) GTEST_SKIP() << "LP_NUM_THREADS is set already";
+  const TempFolder folder;
+  folder.write("bits.json", kConfig);
+  const char* const threads[] = {"2", "1", "4", "0"};  // 0: none besides the program's own
+  for (const char* count : threads) {
+    const Environment environment("LP_NUM_THREADS", count);
+    const Outcome outcome = run_qtrace({"run", "bits.json", "--quiet", "--out", count}, folder.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  int compared = 0;
+  for (const std::string& name : tree(folder / "2")) {
+    if (!name.ends_with(".exr") && !name.ends_with(".npy")) continue;
+    const std::string truth = folder.read("2/" + name);
+    for (const char* count : threads) {
+      EXPECT_TRUE(folder.read(std::string(count) + '/' + name) == truth) << count << " threads: " << name;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared,
+            6 * (4 + 1 + 3) + 1);  // snapshots, first hits and tables of every run, and the reference
+}
+
+}  // namespace
+}  // namespace qtrace::tests
