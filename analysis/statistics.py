@@ -6,8 +6,9 @@ bright outliers. The tables of `qtrace run` have the same mean.
 
 The interval is Student's t, symmetric about the logarithm of the mean: with m the mean, s the standard
 deviation and n seeds, log m has the standard error s / (m sqrt(n)) to first order (delta method), hence
-m * exp(+-t s / (m sqrt(n))). For small errors that is the table's m +- t s / sqrt(n); for large ones it stays
-above zero, as errors do and logarithmic axes need, and is skewed upwards, as errors are.
+m * exp(+-t s / (m sqrt(n))). For small errors that is m +- t s / sqrt(n); for large ones it stays
+above zero, as errors do and logarithmic axes need, and is skewed upwards, as errors are. cells.csv, written by
+`qtrace run`, has the same intervals: experiments/statistics.h.
 """
 
 from __future__ import annotations
@@ -69,6 +70,16 @@ def estimate(values: Iterable[float]) -> Estimate:
         return Estimate(0.0, 0.0, 0.0, x.size)
     relative = t_quantile(x.size - 1) * float(x.std(ddof=1)) / math.sqrt(x.size) / mean
     return Estimate(mean, mean * math.exp(-relative), mean * math.exp(relative), x.size)
+
+
+def signed_estimate(values: Iterable[float]) -> Estimate:
+    """Mean of values of either sign, as a bias or a slope, with Student's symmetric interval m +- t s / sqrt(n)."""
+    x = np.asarray(list(values), dtype=float)
+    mean = float(x.mean())
+    if x.size == 1:
+        return Estimate(mean, math.nan, math.nan, 1)
+    half_width = t_quantile(x.size - 1) * float(x.std(ddof=1)) / math.sqrt(x.size)
+    return Estimate(mean, mean - half_width, mean + half_width, x.size)
 
 
 def over_seeds(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:

@@ -102,8 +102,8 @@ std::vector<std::size_t> row_axes(const Experiment& experiment) {
 
 std::string estimate_text(const std::optional<Estimate>& value) {
   if (!value) return kNothing;
-  return value->half_width ? fmt::format("{:.3g} ± {:.2g}", value->mean, *value->half_width)
-                           : fmt::format("{:.3g}", value->mean);
+  return value->low ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", value->mean, *value->low, *value->high)
+                    : fmt::format("{:.3g}", value->mean);
 }
 
 std::string cell_table(const Experiment& experiment, const std::vector<const Cell*>& cells) {

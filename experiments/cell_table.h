@@ -10,7 +10,7 @@
 
 namespace qtrace::experiments {
 
-// "0.0329 ± 0.0012", or "-" where there is nothing.
+// "0.0329 [0.0317, 0.0342]", or "-" where there is nothing.
 std::string estimate_text(const std::optional<Estimate>& value);
 
 // Markdown: a row per cell, and one below it for its filtered image where it has one. Filtered errors stand

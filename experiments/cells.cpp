@@ -1,5 +1,7 @@
 #include "experiments/cells.h"
 
+#include "engine/core/check.h"
+
 #include <algorithm>
 
 namespace qtrace::experiments {
@@ -14,6 +16,23 @@ std::optional<FrameTimes> pooled_times(const Members& runs, std::vector<double> 
   }
   if (pooled.empty()) return std::nullopt;
   return FrameTimes{*quantile(pooled, 0.5), *quantile(pooled, 0.1), *quantile(pooled, 0.9)};
+}
+
+std::map<std::string, Estimate> estimate_figures(const Members& runs) {
+  std::map<std::string, Estimate> figures;
+  const std::vector<Column<RunRecord>> columns = run_columns({});
+  for (const CellFigure& figure : cell_figures()) {
+    const auto column = std::ranges::find(columns, figure.column, &Column<RunRecord>::name);
+    check(column != columns.end(), "summary.csv has no column '{}'", figure.column);
+    std::vector<double> values;
+    for (const RunRecord* run : runs) {
+      const CsvValue value = column->get(*run);
+      if (const double* number = std::get_if<double>(&value)) values.push_back(*number);
+    }
+    const auto result = figure.is_signed ? signed_estimate(values) : estimate(values);
+    if (result) figures.emplace(figure.column, *result);
+  }
+  return figures;
 }
 
 Cell make_cell(const Members& members) {
@@ -50,7 +69,9 @@ Cell make_cell(const Members& members) {
   cell.relmse_x_s = estimate(inefficiency);
   cell.relmse_filtered = estimate(filtered);
   cell.fireflies_per_million = estimate(fireflies);
-  cell.clamp_bias = estimate(bias);
+  cell.clamp_bias = signed_estimate(bias);
+  cell.members = finished;
+  cell.figures = estimate_figures(finished);
   return cell;
 }
 

@@ -1,6 +1,7 @@
 // Cells of a sweep (not of a Q-table): runs that differ in their seed alone, taken together.
 #pragma once
 
+#include "experiments/error_parts.h"
 #include "experiments/records.h"
 #include "experiments/statistics.h"
 
@@ -39,7 +40,20 @@ struct Cell {
   std::uint64_t non_finite = 0;
   std::size_t at_reference_floor = 0;           // seeds
   std::map<std::string, std::size_t> verdicts;  // seeds by word; empty where nothing was expected
+  std::vector<const RunRecord*> members;        // finished ones, among the records that the cell is made of
+  std::optional<ErrorParts> parts;              // filled in from the images when all runs are done
+  std::map<std::string, Estimate> figures;  // by column of summary.csv; a seed without a value is not in it
 };
+
+// The columns of summary.csv that cells.csv takes over the seeds of a cell.
+struct CellFigure {
+  std::string column;
+  bool is_signed = false;  // symmetric interval
+};
+const std::vector<CellFigure>& cell_figures();
+
+// cells.csv: seeds, then mean, _sd, _low and _high of every figure.
+std::vector<Column<Cell>> cell_columns(const std::vector<Axis>& axes);
 
 // In the order of their first runs.
 std::vector<Cell> collect_cells(const std::vector<RunRecord>& records);

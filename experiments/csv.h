@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,6 +15,9 @@ namespace qtrace::experiments {
 using CsvValue = std::variant<std::monostate, double, std::int64_t, std::uint64_t, bool, std::string>;
 
 std::string csv_field(const CsvValue& value);
+
+// An empty field for nothing.
+inline CsvValue maybe(const std::optional<double>& value) { return value ? CsvValue(*value) : CsvValue(); }
 
 // One record with its line end.
 std::string csv_line(const std::vector<CsvValue>& values);

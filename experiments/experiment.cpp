@@ -3,13 +3,16 @@
 #include "engine/core/check.h"
 #include "engine/tracer/limits.h"
 #include "experiments/atomic_file.h"
+#include "experiments/cells.h"
 #include "experiments/manifest.h"
+#include "experiments/ratios.h"
 #include "experiments/run.h"
 #include "experiments/table.h"
 #include "experiments/text_table.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <set>
 
 namespace qtrace::experiments {
@@ -42,12 +45,14 @@ class Journal {
   }
 
   void add(RunRecord record) {
-    records_.push_back(std::move(record));
+    const auto after = std::ranges::upper_bound(records_, record.place, {}, &RunRecord::place);
+    records_.insert(after, std::move(record));
     write();
   }
 
   // Returns whether all runs finished and met what was expected of them.
-  bool close() {
+  bool close(Progress& progress) {
+    separate(progress);
     const bool all = std::all_of(records_.begin(), records_.end(),
                                  [](const RunRecord& record) { return record.status == "finished"; });
     manifest_["status"] = all ? "finished" : "failed";
@@ -61,17 +66,58 @@ class Journal {
   }
 
  private:
+  std::vector<Cell> collect() const {
+    std::vector<Cell> cells = collect_cells(records_);
+    for (Cell& cell : cells) {
+      if (const auto parts = parts_.find(cell.name); parts != parts_.end()) cell.parts = parts->second;
+    }
+    return cells;
+  }
+
+  // Variance and bias of every cell, from the images in its runs' folders.
+  void separate(Progress& progress) {
+    for (const Cell& cell : collect_cells(records_)) {
+      if (cell.members.size() < 2) continue;
+      const auto image = [&](std::size_t seed) {
+        const RunRecord& run = *cell.members[seed];
+        const fs::path file = snapshot_file(folder_ / run.run.id, run.last_snapshot()->frame);
+        return to_radiance(read_exr(file), file);
+      };
+      try {
+        const Reference& reference = references_.used().at(cell.members.front()->reference_hash);
+        const StoredReference stored = read_reference(reference.file, reference.spec);
+        if (const auto parts = separate_errors(cell.members.size(), image, stored.image)) {
+          parts_.emplace(cell.name, *parts);
+        }
+      } catch (const std::exception& error) {
+        progress.warning(
+            fmt::format("{}: bias and variance are not told apart: {}", cell.name, error.what()));
+      }
+    }
+  }
+
   void write() {
     Json runs = Json::array();
+    auto record = records_.begin();
     for (std::size_t i = 0; i < experiment_.runs.size(); ++i) {
-      Json run{{"run", experiment_.runs[i].id},
-               {"status", i < records_.size() ? records_[i].status : "waiting"}};
-      if (i < records_.size() && !records_[i].reason.empty()) run["reason"] = records_[i].reason;
-      if (i < records_.size() && records_[i].verdict) run["verdict"] = records_[i].verdict->word;
+      const bool is_done = record != records_.end() && record->place == i;
+      Json run{{"run", experiment_.runs[i].id}, {"status", is_done ? record->status : "waiting"}};
+      if (is_done) {
+        run["order"] = record->order;
+        run["started"] = record->started;
+        if (!record->reason.empty()) run["reason"] = record->reason;
+        if (record->verdict) run["verdict"] = record->verdict->word;
+        ++record;
+      }
       runs.push_back(std::move(run));
     }
     manifest_["runs"] = runs;
     write_file(folder_ / "summary.csv", csv_text(run_columns(experiment_.axes), records_));
+    const std::vector<Cell> cells = collect();
+    write_file(folder_ / "cells.csv", csv_text(cell_columns(experiment_.axes), cells));
+    if (!experiment_.baseline.empty()) {
+      write_file(folder_ / "ratios.csv", csv_text(ratio_columns(), baseline_ratios(experiment_, cells)));
+    }
     write_file(folder_ / "table.md", table());
     write_json(folder_ / "manifest.json", manifest_);
   }
@@ -80,7 +126,8 @@ class Journal {
   const gpu::Context& context_;
   const ReferenceStore& references_;
   fs::path folder_;
-  std::vector<RunRecord> records_;
+  std::vector<RunRecord> records_;           // in the order of the config
+  std::map<std::string, ErrorParts> parts_;  // by cell
   Json manifest_;
 };
 
@@ -179,6 +226,18 @@ std::optional<fs::path> move_aside(const fs::path& folder) {
   return aside;
 }
 
+std::vector<std::size_t> execution_order(const Experiment& experiment) {
+  std::map<std::string, int> runs_of_cell;
+  std::vector<std::pair<int, std::size_t>> turns;  // (repetition, place)
+  for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
+    turns.emplace_back(runs_of_cell[experiment.runs[i].cell]++, i);
+  }
+  std::ranges::sort(turns);
+  std::vector<std::size_t> order;
+  for (const auto& [repetition, place] : turns) order.push_back(place);
+  return order;
+}
+
 bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,
                     const fs::path& results_root, Progress& progress) {
   const fs::path folder = results_root / experiment.name;
@@ -189,16 +248,20 @@ bool run_experiment(const Experiment& experiment, const gpu::Context& context, S
   plan_work(experiment, scenes, results_root, progress);
   ReferenceStore references(context, results_root, progress);
   Journal journal(experiment, context, references, folder);
-  for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
-    const Run& run = experiment.runs[i];
+  int order = 0;
+  for (const std::size_t place : execution_order(experiment)) {
+    const Run& run = experiment.runs[place];
+    ++order;
     const LoadedScene& scene = scenes.load(experiment.scene_file(run));
     const LoadedScene& shown = scenes.load(experiment.reference_file(run));
     const auto reference = [&] {
       return references.get(reference_spec(run.config, shown.hash), shown, experiment.folder());
     };
-    const std::string label = fmt::format("run {}/{} {}", i + 1, experiment.runs.size(), run.id);
+    const std::string label = fmt::format("run {}/{} {}", order, experiment.runs.size(), run.id);
     RunRecord record = execute_run(
         {context, experiment, run, scene, shown.hash, reference, folder / run.id, label}, progress);
+    record.place = place;
+    record.order = order;
     if (met_expectation(record)) {
       progress.note(result_line(label, record));
     } else {
@@ -206,7 +269,7 @@ bool run_experiment(const Experiment& experiment, const gpu::Context& context, S
     }
     journal.add(std::move(record));
   }
-  const bool all_good = journal.close();
+  const bool all_good = journal.close(progress);
   fmt::print("{}\nFiles: {}\n", journal.table(), folder.string());
   return all_good;
 }

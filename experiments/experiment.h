@@ -26,6 +26,10 @@ std::optional<std::filesystem::path> move_aside(const std::filesystem::path& fol
 // Throws Error that names the first run that the device cannot do.
 void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes);
 
+// Places of the runs in the order of execution: the first seed of every cell, then the second of every cell,
+// so that a machine that slows down or speeds up treats all cells alike.
+std::vector<std::size_t> execution_order(const Experiment& experiment);
+
 // Runs everything and writes results_root/<name>; earlier results of that name are moved aside. Prints the
 // table. Failed runs do not stop the others. Returns whether all runs finished
 // and none failed what was expected of it.

@@ -102,6 +102,24 @@ void check_published(Experiment& experiment) {
   for (const std::string& label : experiment.published.ratio) warn_unless_known(label, labels);
 }
 
+// A label must belong to one axis alone, so that it is clear which one is compared along.
+void check_baseline(const Experiment& experiment) {
+  if (experiment.baseline.empty()) return;
+  std::vector<std::string> names;
+  int axes = 0;
+  for (const Axis& axis : experiment.axes) {
+    if (axis.is_seed) continue;
+    for (const AxisValue& value : axis.values) names.push_back(value.label);
+    axes += std::ranges::count(axis.values, experiment.baseline, &AxisValue::label) > 0 ? 1 : 0;
+  }
+  check(axes < 2, "key 'baseline' is '{}', a label of {} axes; name a whole cell instead",
+        experiment.baseline, axes);
+  for (const Run& run : experiment.runs) names.push_back(run.cell);
+  check(std::ranges::find(names, experiment.baseline) != names.end(),
+        "key 'baseline' is '{}' but must be a label or a cell of the sweep{}", experiment.baseline,
+        suggestion(experiment.baseline, names));
+}
+
 Experiment build(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   Experiment experiment;
   experiment.file = file;
@@ -118,12 +136,15 @@ Experiment build(const std::filesystem::path& file, const std::vector<std::strin
   experiment.name = keys.run.name;
   experiment.axes = keys.sweep.axes;
   experiment.published = keys.published;
+  experiment.baseline = keys.baseline;
 
   Json base = experiment.config;
   base.erase("sweep");
   base.erase("published");
+  base.erase("baseline");
   for (const SweepPoint& point : expand_sweep(keys.sweep, base)) experiment.runs.push_back(make_run(point));
   check_published(experiment);
+  check_baseline(experiment);
   return experiment;
 }
 

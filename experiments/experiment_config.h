@@ -15,6 +15,7 @@ struct ExperimentKeys {
   RunConfig run;
   Sweep sweep;
   Published published;
+  std::string baseline;
 };
 
 template <class Visitor>
@@ -24,6 +25,10 @@ void visit_knobs(Visitor& visit, ExperimentKeys& keys) {
                  "axes {\"key\": [values]} or {\"label\": {\"name\": {overrides}}}; runs are their product"},
         keys.sweep);
   visit(KnobInfo{"published", "", "figures of a publication for the table"}, keys.published);
+  visit(KnobInfo{"baseline", "",
+                 "a label of one axis, or a cell (axis labels joined by ' / '): ratios.csv compares with it "
+                 "every cell that differs from it in one label alone; empty: no ratios"},
+        keys.baseline);
 }
 
 struct Run {
@@ -40,6 +45,7 @@ struct Experiment {
   std::vector<Axis> axes;
   std::vector<Run> runs;
   Published published;
+  std::string baseline;
   std::vector<std::string> warnings;  // legal, but surely not meant
 
   std::filesystem::path folder() const { return file.parent_path(); }

@@ -1,11 +1,13 @@
 #include "experiments/records.h"
 
+#include "experiments/curve.h"
+#include "experiments/frame_times.h"
 #include "experiments/statistics.h"
+
+#include <algorithm>
 
 namespace qtrace::experiments {
 namespace {
-
-CsvValue maybe(const std::optional<double>& value) { return value ? CsvValue(*value) : CsvValue(); }
 
 CsvValue ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? CsvValue() : CsvValue(static_cast<double>(part) / static_cast<double>(whole));
@@ -112,6 +114,35 @@ void add_time_columns(std::vector<Column<RunRecord>>& columns, const std::string
                                  {clock + "_ms_iqr", iqr}});
 }
 
+// Snapshots of one run share samples, so its slope has no interval of its own: cells.csv has one over seeds.
+void add_slope_columns(std::vector<Column<RunRecord>>& columns) {
+  const auto slope = [](Metric metric) {
+    return [metric](const RunRecord& row) {
+      return row.last_snapshot() == nullptr ? CsvValue() : maybe(loglog_slope(curve_of(row, metric)));
+    };
+  };
+  columns.push_back({"slope_mse", slope(&ErrorMetrics::mse)});
+  columns.push_back({"slope_relmse", slope(&ErrorMetrics::relmse)});
+  columns.push_back({"snapshots_at_reference_floor", [](const RunRecord& row) {
+                       return CsvValue(static_cast<std::uint64_t>(
+                           std::ranges::count_if(row.snapshots, [](const SnapshotRecord& snapshot) {
+                             return snapshot.errors.at_reference_floor();
+                           })));
+                     }});
+}
+
+// Of the machine, not of the sampler; empty for runs of few frames.
+void add_quality_columns(std::vector<Column<RunRecord>>& columns) {
+  columns.push_back({"warmup_detected", [](const RunRecord& row) {
+                       const auto frames = slow_first_frames(times_per_ray(row, true));
+                       return frames ? CsvValue(std::int64_t{*frames}) : CsvValue();
+                     }});
+  columns.push_back({"noisy", [](const RunRecord& row) {
+                       const auto noisy = is_noisy(times_per_ray(row, false));
+                       return noisy ? CsvValue(*noisy) : CsvValue();
+                     }});
+}
+
 void add_outlier_columns(std::vector<Column<RunRecord>>& columns) {
   using R = RunRecord;
   columns.insert(
@@ -202,10 +233,13 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
           {"seed", [](const R& row) { return CsvValue(std::uint64_t{row.run.config.render.seed}); }},
           {"status", [](const R& row) { return CsvValue(row.status); }},
           {"reason", [](const R& row) { return CsvValue(row.reason); }},
+          {"order", [](const R& row) { return CsvValue(std::int64_t{row.order}); }},
+          {"started", [](const R& row) { return CsvValue(row.started); }},
           {"frames", [](const R& row) { return CsvValue(static_cast<std::uint64_t>(row.frames.size())); }},
       });
   add_time_columns(columns, "host", &R::host_ms);
   add_time_columns(columns, "gpu", &R::gpu_ms);
+  add_quality_columns(columns);
   columns.insert(columns.end(),
                  {
                      {"setup_s", [](const R& row) { return CsvValue(row.setup_s); }},
@@ -215,6 +249,7 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
   add_error_columns(columns, "", kPlain);
   add_reference_columns(columns);
   columns.push_back({"relmse_x_s", [](const R& row) { return maybe(row.relmse_x_seconds()); }});
+  add_slope_columns(columns);
   add_filter_columns(columns);
   add_statistics_columns(columns, [](const R& row) { return row.totals(); });
   add_outlier_columns(columns);

@@ -50,9 +50,12 @@ struct FireflyRecord {
 // One run; what it did not reach stays empty.
 struct RunRecord {
   Run run;
-  std::string scene;   // file name without folder and extension
-  std::string status;  // "running", "finished" or "failed"
-  std::string reason;  // of a failure
+  std::string scene;      // file name without folder and extension
+  std::string status;     // "running", "finished" or "failed"
+  std::string reason;     // of a failure
+  std::size_t place = 0;  // among the runs of the config
+  int order = 0;          // of execution, from 1
+  std::string started;    // UTC
   std::string reference_hash;
   std::string config_hash;
   double setup_s = 0;  // acceleration, cells, shaders: before the first frame, not in elapsed_s

@@ -138,7 +138,7 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
     keep(read_reference(reference.file, spec));
     reference.origin = "rendered";
   }
-  if (reference.non_finite > 0) {
+  if (reference.non_finite > 0 && !used_.contains(spec.hash)) {
     progress_.warning(fmt::format("{}: {} samples of this reference were not finite and count as 0 in it",
                                   reference.file.string(), reference.non_finite));
   }

@@ -7,7 +7,6 @@
 #include "experiments/flip.h"
 #include "experiments/hash.h"
 #include "experiments/manifest.h"
-#include "experiments/run_files.h"
 #include "experiments/version.h"
 
 #include <algorithm>
@@ -35,8 +34,11 @@ FirstHitImage to_world(FirstHitImage image, const glm::dvec3& origin) {
 class Execution {
  public:
   Execution(const RunJob& job, RunRecord& record)
-      : job_(job), record_(record), files_(job.folder, metadata()), manifest_(first_manifest()) {
-    files_.write_manifest(manifest_);
+      : job_(job),
+        record_(record),
+        files_(job.make_files(job.folder, metadata())),
+        manifest_(first_manifest()) {
+    files_->write_manifest(manifest_);
   }
 
   void run(Progress& progress) {
@@ -51,7 +53,7 @@ class Execution {
     manifest_["device_bytes"] = tracer.device_bytes();
     for (const std::string& warning : tracer.warnings()) warn(warning, progress);
     const FirstHitImage first_hit = tracer.first_hit();
-    files_.write_first_hit(to_world(first_hit, job_.scene.scene.origin));
+    files_->write_first_hit(to_world(first_hit, job_.scene.scene.origin));
     if (config().filter.kind == FilterKind::atrous) {
       filter_.emplace(job_.context, first_hit, config().filter);
     }
@@ -75,8 +77,8 @@ class Execution {
     manifest_["elapsed_s"] = record_.elapsed_s();
     manifest_["gpu_elapsed_s"] = record_.gpu_elapsed_s();
     manifest_["non_finite"] = record_.totals().non_finite;
-    files_.write_tables(record_);
-    files_.write_manifest(manifest_);
+    files_->write_tables(record_);
+    files_->write_manifest(manifest_);
   }
 
  private:
@@ -106,7 +108,7 @@ class Execution {
                   {"program", program_json()},
                   {"metrics", metrics_json()},
                   {"timing", timing_note()},
-                  {"started", utc_now()},
+                  {"started", record_.started},
                   {"warnings", Json::array()}};
     const std::string warning = light_warning(job_.scene, config());
     if (!warning.empty()) manifest["warnings"].push_back(warning);
@@ -157,7 +159,7 @@ class Execution {
 
   void prepare_table(const QTable* table, Progress& progress) {
     if (table != nullptr) {
-      files_.write_cells(*table, job_.scene.scene.origin);
+      files_->write_cells(*table, job_.scene.scene.origin);
     } else {
       warn(fmt::format(
                "save_table is {}, but there is nothing to save: neither directions nor lights are learned",
@@ -168,7 +170,7 @@ class Execution {
 
   void save_table(int frame, const QTable* table) const {
     const bool wanted = config().save_table == SaveTable::snapshots || frame == config().frames;
-    if (wanted && table != nullptr) files_.write_q_table(frame, *table);
+    if (wanted && table != nullptr) files_->write_q_table(frame, *table);
   }
 
   ErrorMetrics measure(const RadianceImage& image, const Reference& reference) const {
@@ -195,9 +197,9 @@ class Execution {
       next.filtered = FilteredRecord{measure(*filtered, reference), ms};
     }
     record_.snapshots.push_back(next);
-    files_.write_snapshot(frame, image, filtered ? &*filtered : nullptr);
+    files_->write_snapshot(frame, image, filtered ? &*filtered : nullptr);
     if (saves_table()) save_table(frame, tracer.table());
-    files_.write_tables(record_);
+    files_->write_tables(record_);
     return next.errors.relmse;
   }
 
@@ -229,13 +231,17 @@ class Execution {
 
   const RunJob& job_;
   RunRecord& record_;
-  RunFiles files_;
+  std::unique_ptr<RunFiles> files_;
   Json manifest_;
   std::optional<AtrousFilter> filter_;
   bool begun_ = false;
 };
 
 }  // namespace
+
+std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata) {
+  return std::make_unique<RunFiles>(folder, metadata);
+}
 
 double run_work(const RunConfig& config) {
   return static_cast<double>(config.render.width) * config.render.height * config.frames;
@@ -246,6 +252,7 @@ RunRecord execute_run(const RunJob& job, Progress& progress) {
   record.run = job.run;
   record.scene = job.scene.scene.name;
   record.status = "running";
+  record.started = utc_now();
   record.config_hash = config_hash(job.run.config, job.scene.hash);
   record.reference_hash = reference_spec(job.run.config, job.reference_scene_hash).hash;
   std::optional<Execution> execution;

@@ -5,6 +5,7 @@
 #include "experiments/progress.h"
 #include "experiments/records.h"
 #include "experiments/reference.h"
+#include "experiments/run_files.h"
 #include "experiments/scene_store.h"
 
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include <string>
 
 namespace qtrace::experiments {
+
+std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata);
 
 struct RunJob {
   const gpu::Context& context;
@@ -23,6 +26,8 @@ struct RunJob {
   std::function<std::shared_ptr<const Reference>()> get_reference;
   std::filesystem::path folder;  // made here
   std::string label;             // for the progress line
+  std::function<std::unique_ptr<RunFiles>(const std::filesystem::path&, const ExrMetadata&)> make_files =
+      make_run_files;
 };
 
 // Pixels times frames, the unit of progress.

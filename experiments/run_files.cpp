@@ -6,6 +6,10 @@
 
 namespace qtrace::experiments {
 
+std::filesystem::path snapshot_file(const std::filesystem::path& folder, int frame) {
+  return folder / fmt::format("frame_{:06}.exr", frame);
+}
+
 RunFiles::RunFiles(std::filesystem::path folder, ExrMetadata metadata)
     : folder_(std::move(folder)), metadata_(std::move(metadata)) {
   make_folder(folder_);
@@ -18,7 +22,7 @@ void RunFiles::write_first_hit(const FirstHitImage& image) const {
 void RunFiles::write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const {
   ExrImage exr = to_exr(image, metadata_);
   if (filtered != nullptr) add_filtered(exr, *filtered);
-  write_exr(folder_ / fmt::format("frame_{:06}.exr", frame), exr);
+  write_exr(snapshot_file(folder_, frame), exr);
 }
 
 void RunFiles::write_cells(const QTable& table, const glm::dvec3& origin) const {

@@ -10,14 +10,20 @@
 
 namespace qtrace::experiments {
 
+// frame_000064.exr
+std::filesystem::path snapshot_file(const std::filesystem::path& folder, int frame);
+
 class RunFiles {
  public:
   // Makes the folder. `metadata` goes into every image.
   RunFiles(std::filesystem::path folder, ExrMetadata metadata);
+  virtual ~RunFiles() = default;
+  RunFiles(const RunFiles&) = delete;
+  RunFiles& operator=(const RunFiles&) = delete;
 
   void write_first_hit(const FirstHitImage& image) const;  // first_hit.exr
-  // frame_000064.exr; `filtered` may be null.
-  void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const;
+  // `filtered` may be null.
+  virtual void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const;
   // frames.csv, convergence.csv and, of a run with a filter, convergence_filtered.csv.
   void write_tables(const RunRecord& record) const;
   void write_cells(const QTable& table, const glm::dvec3& origin) const;  // cells.npy

@@ -10,7 +10,29 @@ namespace {
 
 constexpr double kConfidence = 0.95;
 
+std::optional<Estimate> moments(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const auto count = static_cast<double>(values.size());
+  Estimate result;
+  result.count = values.size();
+  for (const double value : values) result.mean += value / count;
+  if (values.size() < 2) return result;
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.sd = std::sqrt(squares / (count - 1));
+  return result;
+}
+
+double half_width_of(const Estimate& estimate) {
+  const auto count = static_cast<double>(estimate.count);
+  return t_quantile(count - 1) * *estimate.sd / std::sqrt(count);
+}
+
 }  // namespace
+
+double t_quantile(double degrees) {
+  return boost::math::quantile(boost::math::students_t(degrees), 0.5 + kConfidence / 2);
+}
 
 std::optional<double> quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::nullopt;
@@ -21,18 +43,21 @@ std::optional<double> quantile(std::vector<double> values, double q) {
   return std::lerp(values[below], values[above], position - std::floor(position));
 }
 
+std::optional<Estimate> signed_estimate(const std::vector<double>& values) {
+  std::optional<Estimate> result = moments(values);
+  if (!result || !result->sd) return result;
+  const double half_width = half_width_of(*result);
+  result->low = result->mean - half_width;
+  result->high = result->mean + half_width;
+  return result;
+}
+
 std::optional<Estimate> estimate(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  const auto count = static_cast<double>(values.size());
-  Estimate result;
-  result.count = values.size();
-  for (const double value : values) result.mean += value / count;
-  if (values.size() < 2) return result;
-  double squares = 0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  const boost::math::students_t distribution(count - 1);
-  const double t = boost::math::quantile(distribution, 0.5 + kConfidence / 2);
-  result.half_width = t * std::sqrt(squares / (count - 1) / count);
+  std::optional<Estimate> result = moments(values);
+  if (!result || !result->sd) return result;
+  const double relative = result->mean == 0 ? 0 : half_width_of(*result) / result->mean;
+  result->low = result->mean * std::exp(-relative);
+  result->high = result->mean * std::exp(relative);
   return result;
 }
 

@@ -1,7 +1,9 @@
 #include "experiments/table.h"
 
 #include "experiments/cell_table.h"
+#include "experiments/frame_times.h"
 #include "experiments/manifest.h"
+#include "experiments/ratios.h"
 
 #include <algorithm>
 
@@ -77,6 +79,31 @@ std::string reference_lines(const std::map<std::string, Reference>& references) 
   return lines;
 }
 
+// Where the interval of a slope lies beyond this distance from -1, something is worth a look.
+constexpr double kSlopeTolerance = 0.1;
+
+std::string slope_lines(const std::vector<Cell>& cells) {
+  std::string lines;
+  for (const Cell& cell : cells) {
+    for (const char* figure : {"slope_mse", "slope_relmse"}) {
+      const auto found = cell.figures.find(figure);
+      if (found == cell.figures.end() || !found->second.low) continue;
+      const bool is_steep = *found->second.high < -1 - kSlopeTolerance;
+      const bool is_flat = *found->second.low > -1 + kSlopeTolerance;
+      if (!is_steep && !is_flat) continue;
+      lines += fmt::format("- {}: {} against spp {}: {}\n", cell.name, figure, estimate_text(found->second),
+                           is_steep ? "steeper than -1: still learning, or rare bright samples came early"
+                                    : "flatter than -1: biased, heavy-tailed, or near the reference's noise");
+    }
+  }
+  return lines.empty() ? lines : "\nErrors that do not fall as 1/spp:\n" + lines;
+}
+
+std::string time_lines(const std::vector<RunRecord>& records) {
+  const std::string lines = time_warnings(records);
+  return lines.empty() ? lines : "\nTimes to be careful with:\n" + lines;
+}
+
 std::string failure_lines(const std::vector<RunRecord>& records) {
   std::string lines;
   for (const RunRecord& record : records) {
@@ -103,12 +130,21 @@ std::string notes(const Experiment& experiment) {
       "frames) and their product: at the last frame, mean over seeds{}. Fireflies: samples brighter than "
       "firefly_multiple times their pixel's reference. Non-finite: samples. At floor: seeds "
       "whose error is within {} times the reference's own noise.\n",
-      seeds ? " ± 95 % confidence (Student's t)" : "", kReferenceFloor);
+      seeds ? " [95 % confidence interval]" : "", kReferenceFloor);
   if (std::ranges::any_of(experiment.runs,
                           [](const Run& run) { return run.config.filter.kind != FilterKind::none; })) {
     text +=
         "\nRows marked à-trous: the images of the row above after the filter, which is biased. Its time is "
         "filter_ms in summary.csv and in no other time.\n";
+  }
+  if (!experiment.baseline.empty()) {
+    text +=
+        "\nRatios to the baseline: means over seeds, with 95 % intervals as if the seeds of the two were "
+        "independent. Time to the baseline's relMSE: until the cell's mean error is what the baseline has at "
+        "its "
+        "end, between snapshots by straight lines in the logarithms; '-' where it was never reached, or "
+        "before "
+        "the first snapshot.\n";
   }
   if (!experiment.published.source.empty()) text += "\nPublished: " + experiment.published.source + "\n";
   if (!experiment.published.note.empty()) text += "\n" + experiment.published.note + "\n";
@@ -127,13 +163,14 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
     if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {cell.scene, {}});
     scene->second.push_back(&cell);
   }
+  const std::vector<Ratios> ratios = baseline_ratios(experiment, cells);
   std::string text = fmt::format("# {}\n\nDevice: {}\n", experiment.name, device);
   for (const auto& [scene, rows] : scenes) {
     text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
-            clamping_lines(rows);
+            ratio_table(ratios, scene) + clamping_lines(rows);
   }
-  return text + failure_lines(records) + verdict_lines(records) + reference_lines(references) +
-         notes(experiment);
+  return text + slope_lines(cells) + time_lines(records) + failure_lines(records) + verdict_lines(records) +
+         reference_lines(references) + notes(experiment);
 }
 
 }  // namespace qtrace::experiments

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -184,6 +185,23 @@ TEST(Records, FailedRunsHaveNoErrorsButAReason) {
   EXPECT_EQ(field(columns, row, "frames"), "3");
 }
 
+TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
+  const auto columns = cell_columns({Axis{"method", false, {}}, Axis{"seed", true, {}}});
+  expect_distinct(columns);
+  const Cell cell = collect_cells({run_record("RL", 1, 0.25), run_record("RL", 2, 0.75)}).front();
+  EXPECT_EQ(field(columns, cell, "axis:method"), "RL");
+  EXPECT_EQ(field(columns, cell, "axis:seed"), "no such column");
+  EXPECT_EQ(field(columns, cell, "seeds"), "2");
+  EXPECT_EQ(field(columns, cell, "relmse"), "0.5");
+  EXPECT_NEAR(std::stod(field(columns, cell, "relmse_sd")), std::sqrt(0.125), 1e-15);
+  EXPECT_NEAR(std::stod(field(columns, cell, "relmse_high")), 0.5 * std::exp(12.7062 * 0.25 / 0.5), 0.05);
+  EXPECT_NEAR(std::stod(field(columns, cell, "clamp_bias_low")), -0.0625 - 12.7062 * 0.03125, 1e-5);
+  EXPECT_EQ(field(columns, cell, "flip"), "");
+  const Cell lonely = collect_cells({run_record("RL", 1, 0.25)}).front();
+  EXPECT_EQ(field(columns, lonely, "relmse"), "0.25");
+  EXPECT_EQ(field(columns, lonely, "relmse_low"), "");
+}
+
 TEST(Records, CellsPoolFramesAndAverageErrors) {
   RunRecord failed = run_record("RL", 3, 0);
   failed.status = "failed";
@@ -195,15 +213,15 @@ TEST(Records, CellsPoolFramesAndAverageErrors) {
   EXPECT_EQ(cells[0].finished, 2U);
   EXPECT_EQ(cells[0].host_ms->median, 3);
   EXPECT_EQ(cells[0].relmse->mean, 0.5);
-  EXPECT_TRUE(cells[0].relmse->half_width.has_value());
+  EXPECT_TRUE(cells[0].relmse->low.has_value());
   EXPECT_NEAR(cells[0].relmse_x_s->mean, 0.5 * 0.106, 1e-15);
   EXPECT_EQ(cells[0].non_finite, 9U);
   EXPECT_EQ(cells[0].clamped_samples, 45U);
   EXPECT_EQ(cells[0].fireflies_per_million->mean, 200000);
-  EXPECT_EQ(cells[0].fireflies_per_million->half_width, 0);
+  EXPECT_EQ(cells[0].fireflies_per_million->sd, 0);
   EXPECT_EQ(cells[0].clamp_bias->mean, -0.0625);
   EXPECT_FALSE(cells[0].relmse_filtered.has_value());
-  EXPECT_FALSE(cells[1].relmse->half_width.has_value());
+  EXPECT_FALSE(cells[1].relmse->low.has_value());
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// What times leave out, shown by making it slow.
+#include "tests/support/device.h"
+#include "tests/system/small_scene.h"
+
+#include "experiments/experiment.h"
+#include "experiments/run.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace qtrace::tests {
+namespace {
+
+using namespace experiments;
+
+constexpr double kDelay = 0.2;  // seconds per snapshot; three snapshots
+
+class SlowFiles : public RunFiles {
+ public:
+  using RunFiles::RunFiles;
+  void write_snapshot(int frame, const RadianceImage& image, const RadianceImage* filtered) const override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(kDelay));
+    RunFiles::write_snapshot(frame, image, filtered);
+  }
+};
+
+// A small run takes a few milliseconds, the writer 0.6 s: were the writing inside any time, it would show.
+TEST(Timing, ASlowWriterChangesNoTime) {
+  const TempFolder folder;
+  write_small_scene(folder, "scene");
+  folder.write("slow.json", small_config("slow"));
+  const Experiment experiment = load_experiment(folder / "slow.json");
+  const Run& run = experiment.runs.front();
+  Progress progress(Progress::Mode::quiet);
+  SceneStore scenes;
+  const LoadedScene& scene = scenes.load(experiment.scene_file(run));
+  ReferenceStore references(test::device(), folder.path(), progress);
+  const auto reference = [&] {
+    return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
+  };
+  reference();
+  const auto make_files = [](const std::filesystem::path& place, const ExrMetadata& metadata) {
+    return std::make_unique<SlowFiles>(place, metadata);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const RunRecord record = execute_run(
+      {test::device(), experiment, run, scene, scene.hash, reference, folder / "run", "slow", make_files},
+      progress);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  ASSERT_EQ(record.status, "finished") << record.reason;
+  ASSERT_EQ(record.snapshots.size(), 3U);
+  EXPECT_GT(wall.count(), 3 * kDelay);
+  EXPECT_LT(record.elapsed_s() + record.setup_s, wall.count() - 3 * kDelay);
+  EXPECT_LT(record.gpu_elapsed_s(), wall.count() - 3 * kDelay);
+  for (const SnapshotRecord& snapshot : record.snapshots) EXPECT_LE(snapshot.elapsed_s, record.elapsed_s());
+}
+
+}  // namespace
+}  // namespace qtrace::tests
