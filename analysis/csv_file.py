@@ -10,7 +10,8 @@ import pandas as pd
 
 from analysis.command import AnalysisError
 
-TEXT = {"run", "cell", "scene", "status", "reason", "verdict", "verdict_reason", "reference_hash", "config_hash"}
+TEXT = {"run", "cell", "scene", "status", "reason", "verdict", "verdict_reason", "started", "baseline",
+        "reference_hash", "config_hash"}
 BOOLEAN = {"is_warmup", "at_reference_floor"}
 
 

@@ -25,7 +25,7 @@ std::string noise_warning(const std::vector<RunRecord>& records) {
   const RunRecord* worst = nullptr;
   double worst_spread = 0;
   for (const RunRecord& record : records) {
-    const std::vector<double> times = times_per_ray(record, false);
+    const std::vector<double> times = settled_times(record);
     const auto answer = is_noisy(times);
     if (!answer) continue;
     ++judged;
@@ -49,7 +49,7 @@ std::string warmup_warning(const std::vector<RunRecord>& records) {
   std::size_t late = 0;
   int longest = 0;
   for (const RunRecord& record : records) {
-    const int slow = slow_first_frames(times_per_ray(record, true)).value_or(0);
+    const int slow = slow_first_frames(times_per_ray(record)).value_or(0);
     if (slow <= record.run.config.warmup_frames) continue;
     ++late;
     longest = std::max(longest, slow);
@@ -64,12 +64,20 @@ std::string warmup_warning(const std::vector<RunRecord>& records) {
 
 }  // namespace
 
-std::vector<double> times_per_ray(const RunRecord& record, bool with_warmup) {
+std::vector<double> times_per_ray(const RunRecord& record) {
   std::vector<double> times;
   for (const FrameRecord& frame : record.frames) {
-    if (frame.statistics.rays == 0 || (frame.is_warmup && !with_warmup)) continue;
+    if (frame.statistics.rays == 0) continue;
     times.push_back(frame.host_ms * 1e6 / static_cast<double>(frame.statistics.rays));
   }
+  return times;
+}
+
+std::vector<double> settled_times(const RunRecord& record) {
+  std::vector<double> times = times_per_ray(record);
+  const auto warmup = std::ranges::count_if(record.frames, &FrameRecord::is_warmup);
+  const auto slow = std::max<std::ptrdiff_t>(warmup, slow_first_frames(times).value_or(0));
+  times.erase(times.begin(), times.begin() + std::min<std::ptrdiff_t>(slow, std::ssize(times)));
   return times;
 }
 
@@ -81,7 +89,8 @@ std::optional<int> slow_first_frames(const std::vector<double>& times) {
   const double limit =
       middle + std::max(kWarmupDeviations * scaled_mad(settled, middle), kWarmupFraction * middle);
   const auto first = std::ranges::find_if(times, [limit](double time) { return time <= limit; });
-  return static_cast<int>(first - times.begin());
+  const auto slow = static_cast<std::size_t>(first - times.begin());
+  return slow > times.size() / 4 ? 0 : static_cast<int>(slow);
 }
 
 std::optional<double> relative_spread(const std::vector<double>& times) {

@@ -19,7 +19,11 @@ constexpr std::size_t kFewestFrames = 8;  // fewer say nothing
 
 // Milliseconds per million rays of every frame, by the host clock: paths grow longer or shorter as a table is
 // learned, which is work and not noise. Frames without rays are left out.
-std::vector<double> times_per_ray(const RunRecord& record, bool with_warmup);
+std::vector<double> times_per_ray(const RunRecord& record);
+
+// The same without warm-up, neither what warmup_frames says nor the slow first frames: what noise is judged
+// by.
+std::vector<double> settled_times(const RunRecord& record);
 
 // How many frames at the start are slower than the rest: all before the first that is within the limits
 // above. Nothing for fewer than kFewestFrames.

@@ -134,11 +134,11 @@ void add_slope_columns(std::vector<Column<RunRecord>>& columns) {
 // Of the machine, not of the sampler; empty for runs of few frames.
 void add_quality_columns(std::vector<Column<RunRecord>>& columns) {
   columns.push_back({"warmup_detected", [](const RunRecord& row) {
-                       const auto frames = slow_first_frames(times_per_ray(row, true));
+                       const auto frames = slow_first_frames(times_per_ray(row));
                        return frames ? CsvValue(std::int64_t{*frames}) : CsvValue();
                      }});
   columns.push_back({"noisy", [](const RunRecord& row) {
-                       const auto noisy = is_noisy(times_per_ray(row, false));
+                       const auto noisy = is_noisy(settled_times(row));
                        return noisy ? CsvValue(*noisy) : CsvValue();
                      }});
 }

@@ -32,7 +32,7 @@ TEST(Timing, ASlowWriterChangesNoTime) {
   write_small_scene(folder, "scene");
   folder.write("slow.json", small_config("slow"));
   const Experiment experiment = load_experiment(folder / "slow.json");
-  const Run& run = experiment.runs.front();
+  const experiments::Run& run = experiment.runs.front();
   Progress progress(Progress::Mode::quiet);
   SceneStore scenes;
   const LoadedScene& scene = scenes.load(experiment.scene_file(run));

@@ -40,6 +40,8 @@ TEST(FrameTimes, SlowFirstFramesAreCounted) {
   EXPECT_EQ(slow_first_frames(times), 3);
   times[10] = 500;  // later ones are noise
   EXPECT_EQ(slow_first_frames(times), 3);
+  for (std::size_t i = 0; i < 9; ++i) times[i] = 300;  // nearly half of them: no warm-up
+  EXPECT_EQ(slow_first_frames(times), 0);
   EXPECT_FALSE(slow_first_frames({3, 2, 1, 1, 1}).has_value());
 }
 
@@ -62,8 +64,8 @@ TEST(FrameTimes, LongerPathsAreNoNoise) {
     record.frames[i].statistics.rays *= i + 1;
     record.frames[i].host_ms *= static_cast<double>(i + 1);
   }
-  EXPECT_EQ(is_noisy(times_per_ray(record, false)), false);
-  EXPECT_EQ(slow_first_frames(times_per_ray(record, true)), 0);
+  EXPECT_EQ(is_noisy(settled_times(record)), false);
+  EXPECT_EQ(slow_first_frames(times_per_ray(record)), 0);
   EXPECT_EQ(time_warnings({record}), "");
 }
 

@@ -147,5 +147,14 @@ TEST(Sweep, PublishedFiguresOfUnknownCellsAreWarnedOf) {
   EXPECT_EQ(experiment.published.ms_per_frame.find("none"), nullptr);
 }
 
+TEST(Sweep, TheBaselineIsALabelOfOneAxisOrACell) {
+  const std::string axes =
+      R"([{"m": {"RL": {}, "NEE": {"sampler": "bsdf"}}}, {"frames": [2, 4]}, {"max_bounces": [4, 5]}])";
+  EXPECT_EQ(sweep(axes, R"("baseline": "NEE", )").baseline, "NEE");
+  EXPECT_EQ(sweep(axes, R"("baseline": "NEE / 4 / 5", )").baseline, "NEE / 4 / 5");
+  EXPECT_THROW(sweep(axes, R"("baseline": "4", )"), Error);  // of frames or of bounces
+  EXPECT_THROW(sweep(axes, R"("baseline": "NE", )"), Error);
+}
+
 }  // namespace
 }  // namespace qtrace::experiments

@@ -1,0 +1,117 @@
+// Which cells a baseline is compared with, and by how much.
+#include "experiments/ratios.h"
+#include "experiments/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace qtrace::experiments {
+namespace {
+
+// Three snapshots, `seconds` a frame, error `scale` / spp, a little more with every seed.
+RunRecord record(const std::string& scene, const std::string& method, const std::string& sites, int seed,
+                 double seconds, double scale) {
+  RunRecord result;
+  result.run.id = scene + method + sites + std::to_string(seed);
+  result.run.cell = scene + " / " + method + " / " + sites;
+  result.run.labels = {scene, method, sites, std::to_string(seed)};
+  result.scene = scene;
+  result.status = "finished";
+  for (int frame = 1; frame <= 4; ++frame) {
+    FrameRecord next;
+    next.frame = frame;
+    next.host_ms = seconds * 1e3;
+    next.elapsed_s = seconds * frame;
+    next.statistics.rays = 100;
+    result.frames.push_back(next);
+    if (frame == 3) continue;
+    SnapshotRecord snapshot;
+    snapshot.frame = frame;
+    snapshot.elapsed_s = next.elapsed_s;
+    snapshot.errors.mse = snapshot.errors.relmse = scale * (1 + 0.01 * seed) / frame;
+    snapshot.errors.relmse_trimmed = snapshot.errors.relmse / 2;
+    result.snapshots.push_back(snapshot);
+  }
+  return result;
+}
+
+std::vector<RunRecord> records() {
+  std::vector<RunRecord> all;
+  for (const std::string scene : {"a", "b"}) {
+    for (const int seed : {1, 2, 3}) {
+      all.push_back(record(scene, "NEE", "10", seed, 2, 8));
+      all.push_back(record(scene, "NEE", "20", seed, 2, 8));
+      all.push_back(record(scene, "RL", "10", seed, 1, 4));
+      all.push_back(record(scene, "RL", "20", seed, 4, 80));
+    }
+  }
+  return all;
+}
+
+Experiment experiment(const std::string& baseline) {
+  Experiment result;
+  result.name = "demo";
+  result.axes = {Axis{"scene", false, {}}, Axis{"method", false, {}}, Axis{"sites", false, {}},
+                 Axis{"seed", true, {}}};
+  result.baseline = baseline;
+  return result;
+}
+
+std::vector<std::string> pairs(const std::vector<Ratios>& ratios) {
+  std::vector<std::string> names;
+  for (const Ratios& row : ratios) names.push_back(row.cell + " to " + row.baseline);
+  return names;
+}
+
+TEST(Baseline, ALabelIsTheBaselineOfCellsThatDifferInItAlone) {
+  const std::vector<RunRecord> all = records();
+  EXPECT_EQ(pairs(baseline_ratios(experiment("NEE"), collect_cells(all))),
+            (std::vector<std::string>{"a / RL / 10 to a / NEE / 10", "a / RL / 20 to a / NEE / 20",
+                                      "b / RL / 10 to b / NEE / 10", "b / RL / 20 to b / NEE / 20"}));
+}
+
+TEST(Baseline, ACellIsTheBaselineOfItsNeighbours) {
+  const std::vector<RunRecord> all = records();
+  EXPECT_EQ(pairs(baseline_ratios(experiment("a / NEE / 10"), collect_cells(all))),
+            (std::vector<std::string>{"a / NEE / 20 to a / NEE / 10", "a / RL / 10 to a / NEE / 10"}));
+  EXPECT_TRUE(baseline_ratios(experiment(""), collect_cells(all)).empty());
+}
+
+// RL with ten sites has half the error and half the seconds per frame: it reaches the error of four frames of
+// NEE after two frames, in a quarter of the time. With twenty sites it never does.
+TEST(Baseline, RatiosAreTheBaselinesFigureOverTheCells) {
+  const std::vector<RunRecord> all = records();
+  const std::vector<Ratios> ratios = baseline_ratios(experiment("NEE"), collect_cells(all));
+  const Ratios& fast = ratios.at(0);
+  EXPECT_NEAR(fast.figures.at("host_ms_median").value, 2, 1e-12);
+  EXPECT_NEAR(*fast.figures.at("host_ms_median").low, 2, 1e-12);  // no scatter
+  EXPECT_NEAR(fast.figures.at("relmse").value, 2, 1e-12);
+  EXPECT_NEAR(fast.figures.at("relmse_trimmed").value, 2, 1e-12);
+  EXPECT_NEAR(fast.figures.at("relmse_x_s").value, 4, 1e-12);
+  EXPECT_LT(*fast.figures.at("relmse").low, 2);
+  EXPECT_NEAR(*fast.mse.target, 8 * 1.02 / 4, 1e-12);
+  EXPECT_NEAR(fast.mse.time->value, 2, 1e-12);
+  EXPECT_NEAR(fast.relmse.ratio->value, 4, 1e-12);
+  EXPECT_LT(*fast.relmse.ratio->low, 4);
+  EXPECT_GT(*fast.relmse.ratio->high, 4);
+  EXPECT_FALSE(ratios.at(1).relmse.ratio.has_value());
+  EXPECT_FALSE(ratios.at(1).relmse.time.has_value());
+}
+
+TEST(Baseline, TheTableWarnsOfSlopesThatAreNotMinusOne) {
+  std::vector<RunRecord> all = records();
+  EXPECT_EQ(experiment_table(experiment(""), all, {}, "d").find("do not fall"), std::string::npos);
+  for (RunRecord& run : all) {
+    if (run.run.labels[1] == "RL") run.snapshots.back().errors.mse *= run.run.labels[2] == "10" ? 2 : 0.25;
+  }
+  const std::string table = experiment_table(experiment(""), all, {}, "d");
+  EXPECT_NE(table.find("- a / RL / 10: slope_mse against spp -0.5 [-0.5, -0.5]: flatter"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("- b / RL / 20: slope_mse against spp -2 [-2, -2]: steeper"), std::string::npos)
+      << table;
+  EXPECT_EQ(table.find("NEE / 10: slope"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace qtrace::experiments
