@@ -17,6 +17,7 @@ std::string number(double value) { return fmt::format("{:.9g}", value); }
 // In the order of metric_definitions().
 std::vector<std::string> values(const ErrorMetrics& errors, std::size_t pixels) {
   const std::string unknown = "unknown: the reference has no variance channels";
+  const auto known = [&](const std::optional<double>& value) { return value ? number(*value) : unknown; };
   return {number(errors.mse),
           number(errors.relmse),
           number(errors.relmse_trimmed),
@@ -27,6 +28,8 @@ std::vector<std::string> values(const ErrorMetrics& errors, std::size_t pixels) 
           number(errors.bias),
           errors.reference ? number(errors.reference->mse) : unknown,
           errors.reference ? number(errors.reference->relmse) : unknown,
+          known(errors.mse_corrected()),
+          known(errors.relmse_corrected()),
           errors.reference ? (errors.at_reference_floor() ? "yes" : "no") : unknown,
           fmt::format("{} of {} pixels", errors.non_finite, pixels)};
 }

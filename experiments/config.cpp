@@ -84,6 +84,11 @@ void check_run_config(const RunConfig& config) {
         "keys 'seed' and 'reference.seed' are both {}: with the same random numbers the reference's noise "
         "would hide the run's error; choose another 'reference.seed'",
         config.render.seed);
+  check(
+      config.reference.relative_error == 0 || config.reference.frames <= config.reference.max_frames,
+      "key 'reference.frames' is {} but must be at most 'reference.max_frames', which is {}: it is the least "
+      "length of a reference with a 'relative_error'",
+      config.reference.frames, config.reference.max_frames);
   check_snapshots(config);
 }
 

@@ -29,7 +29,10 @@ struct KnobType<SnapshotPlan> {
 
 struct ReferenceSettings {
   int frames = 1024;
+  double relative_error = 0;
+  int max_frames = 16384;
   std::uint32_t seed = 9001;
+  Nee nee = Nee::one_ray;
   LightChoice lights = LightChoice::power;
   std::string scene;
 };
@@ -37,12 +40,23 @@ struct ReferenceSettings {
 template <class Visitor>
 void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
   // Two frames at least: one sample has no variance, so that the reference's noise would be unknown.
-  visit(KnobInfo{"frames", "samples per pixel", "length of the render that errors are measured against", 2,
-                 1e7},
+  visit(KnobInfo{"frames", "samples per pixel",
+                 "least length of the render that errors are measured against; a longer one that is there "
+                 "serves as it is, a shorter one is extended",
+                 2, 1e7},
         reference.frames);
+  visit(KnobInfo{"relative_error", "",
+                 "noise that the reference may have itself, sqrt(reference_relmse): after 'frames' it is "
+                 "extended until it has no more; 0: whatever it has then",
+                 0, 1},
+        reference.relative_error);
+  visit(
+      KnobInfo{"max_frames", "samples per pixel", "where 'relative_error' gives up, with a warning", 2, 1e7},
+      reference.max_frames);
   visit(KnobInfo{"seed", "", "its seed; must differ from the seeds of the runs", 0,
                  std::numeric_limits<std::uint32_t>::max()},
         reference.seed);
+  visit(KnobInfo{"nee", "", "its next event estimation"}, reference.nee);
   visit(KnobInfo{"lights", "",
                  "how its next event estimation picks a light; learned: with the default table, said in "
                  "every table"},

@@ -6,6 +6,7 @@
 #include "experiments/cells.h"
 #include "experiments/manifest.h"
 #include "experiments/ratios.h"
+#include "experiments/reference_store.h"
 #include "experiments/run.h"
 #include "experiments/table.h"
 #include "experiments/text_table.h"
@@ -131,22 +132,35 @@ class Journal {
   Json manifest_;
 };
 
-// Each reference that the runs need, once.
+// Each reference that the runs need, once, and as good as any of them wishes it: its length shall not depend
+// on the order of the runs.
 std::vector<ReferenceSpec> needed_references(const Experiment& experiment, SceneStore& scenes) {
-  std::set<std::string> seen;
   std::vector<ReferenceSpec> specs;
   for (const Run& run : experiment.runs) {
     ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.reference_file(run)).hash);
-    if (seen.insert(spec.hash).second) specs.push_back(std::move(spec));
+    const auto same = std::ranges::find(specs, spec.hash, &ReferenceSpec::hash);
+    if (same == specs.end()) {
+      specs.push_back(std::move(spec));
+    } else {
+      same->wish = same->wish.joined(spec.wish);
+    }
   }
   return specs;
 }
 
-void plan_work(const Experiment& experiment, SceneStore& scenes, const fs::path& results_root,
-               Progress& progress) {
+std::string outlook_text(const ReferenceOutlook& outlook) {
+  if (outlook.enough) return fmt::format("found with {} frames", outlook.frames);
+  if (outlook.frames > 0) return fmt::format("to be extended from {} frames", outlook.frames);
+  return "to be rendered";
+}
+
+void plan_work(const Experiment& experiment, const std::vector<ReferenceSpec>& needed,
+               const fs::path& results_root, Progress& progress) {
   for (const Run& run : experiment.runs) progress.plan(run_work(run.config));
-  for (const ReferenceSpec& spec : needed_references(experiment, scenes)) {
-    if (!ReferenceStore::exists(spec, results_root, experiment.folder())) progress.plan(spec.work());
+  for (const ReferenceSpec& spec : needed) {
+    const ReferenceOutlook outlook = ReferenceStore::outlook(spec, results_root, experiment.folder());
+    if (outlook.enough) continue;
+    progress.plan(std::max(0, spec.wish.frames - outlook.frames) * spec.work_per_frame());
   }
 }
 
@@ -205,9 +219,8 @@ std::string describe_runs(const Experiment& experiment, SceneStore& scenes, cons
   std::string text = fmt::format("{}: {} runs\n", experiment.name, experiment.runs.size());
   text += plain_table({"run", "scene", "size", "frames", "bounces", "sampler", "nee", "seed"}, rows);
   for (const ReferenceSpec& spec : needed_references(experiment, scenes)) {
-    const bool there = ReferenceStore::exists(spec, results_root, experiment.folder());
-    text += fmt::format("reference {}: {} frames, {}\n", spec.hash, spec.frames,
-                        there ? "found" : "to be rendered");
+    const ReferenceOutlook outlook = ReferenceStore::outlook(spec, results_root, experiment.folder());
+    text += fmt::format("reference {}: {}, {}\n", spec.hash, spec.wish.text(), outlook_text(outlook));
   }
   return text;
 }
@@ -245,7 +258,8 @@ bool run_experiment(const Experiment& experiment, const gpu::Context& context, S
   if (const auto aside = move_aside(folder)) {
     progress.note(fmt::format("{}: earlier results are kept as {}", folder.string(), aside->string()));
   }
-  plan_work(experiment, scenes, results_root, progress);
+  const std::vector<ReferenceSpec> needed = needed_references(experiment, scenes);
+  plan_work(experiment, needed, results_root, progress);
   ReferenceStore references(context, results_root, progress);
   Journal journal(experiment, context, references, folder);
   int order = 0;
@@ -255,7 +269,9 @@ bool run_experiment(const Experiment& experiment, const gpu::Context& context, S
     const LoadedScene& scene = scenes.load(experiment.scene_file(run));
     const LoadedScene& shown = scenes.load(experiment.reference_file(run));
     const auto reference = [&] {
-      return references.get(reference_spec(run.config, shown.hash), shown, experiment.folder());
+      const std::string hash = reference_spec(run.config, shown.hash).hash;
+      const auto spec = std::ranges::find(needed, hash, &ReferenceSpec::hash);
+      return references.get(*spec, shown, experiment.folder());
     };
     const std::string label = fmt::format("run {}/{} {}", order, experiment.runs.size(), run.id);
     RunRecord record = execute_run(

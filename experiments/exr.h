@@ -3,6 +3,7 @@
 
 #include "engine/core/image.h"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -31,6 +32,10 @@ ExrImage to_exr(const RadianceImage& image, ExrMetadata metadata);
 
 // Adds filtered.R, .G, .B: the same image after a filter.
 void add_filtered(ExrImage& exr, const RadianceImage& filtered);
+
+// Adds half1.R, .G, .B and half2.R, .G, .B: the means over two halves of the samples, whose difference shows
+// the noise without trust in the variance.
+void add_halves(ExrImage& exr, const std::array<RadianceImage, 2>& halves);
 
 // normal.X, .Y, .Z, position.X, .Y, .Z, albedo.R, .G, .B and emission.R, .G, .B.
 ExrImage to_exr(const FirstHitImage& image, ExrMetadata metadata);

@@ -15,6 +15,8 @@ constexpr std::array<const char*, 3> kPosition{"position.X", "position.Y", "posi
 constexpr std::array<const char*, 3> kAlbedo{"albedo.R", "albedo.G", "albedo.B"};
 constexpr std::array<const char*, 3> kEmission{"emission.R", "emission.G", "emission.B"};
 constexpr std::array<const char*, 3> kFiltered{"filtered.R", "filtered.G", "filtered.B"};
+constexpr std::array<const char*, 3> kHalf1{"half1.R", "half1.G", "half1.B"};
+constexpr std::array<const char*, 3> kHalf2{"half2.R", "half2.G", "half2.B"};
 
 template <class Vector>
 void add_planes(ExrImage& exr, const std::array<const char*, 3>& names, const std::vector<Vector>& pixels) {
@@ -71,6 +73,13 @@ ExrImage to_exr(const FirstHitImage& image, ExrMetadata metadata) {
 }
 
 void add_filtered(ExrImage& exr, const RadianceImage& filtered) { add_planes(exr, kFiltered, filtered.mean); }
+
+void add_halves(ExrImage& exr, const std::array<RadianceImage, 2>& halves) {
+  add_planes(exr, kHalf1, halves[0].mean);
+  add_planes(exr, kHalf2, halves[1].mean);
+  exr.metadata["halves"] = fmt::format("half1: mean of the {} odd frames, half2: of the {} even ones",
+                                       halves[0].samples, halves[1].samples);
+}
 
 RadianceImage to_radiance(const ExrImage& exr, const std::filesystem::path& file) {
   check(has_planes(exr, kMean), "{}: has no channels R, G, B", file.string());

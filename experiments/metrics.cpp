@@ -32,6 +32,14 @@ double trimmed_mean(std::vector<double> values) {
 
 }  // namespace
 
+std::optional<double> ErrorMetrics::mse_corrected() const {
+  return reference ? std::optional(mse - reference->mse) : std::nullopt;
+}
+
+std::optional<double> ErrorMetrics::relmse_corrected() const {
+  return reference ? std::optional(relmse - reference->relmse) : std::nullopt;
+}
+
 bool ErrorMetrics::at_reference_floor() const {
   return reference &&
          (mse <= kReferenceFloor * reference->mse || relmse <= kReferenceFloor * reference->relmse);
@@ -109,6 +117,14 @@ std::vector<MetricDefinition> metric_definitions() {
       {"bias", "mean(a - r)", "textbook"},
       {"reference_mse", "mean(var(r)), var(r): variance of the reference's mean", project},
       {"reference_relmse", fmt::format("mean(var(r) / (r^2 + {}))", kEpsilon), project},
+      {"mse_corrected",
+       "mse - reference_mse: without bias, as image and reference share no samples (E[mse] = error + "
+       "var(r)); "
+       "may be negative by chance",
+       project},
+      {"relmse_corrected",
+       "relmse - reference_relmse; to first order in the noise of r, which is in the denominator, too",
+       project},
       {"at_reference_floor",
        fmt::format("mse <= {0} * reference_mse or relmse <= {0} * reference_relmse", kReferenceFloor),
        project},
@@ -120,6 +136,7 @@ std::vector<MetricDefinition> metric_definitions() {
 std::vector<MetricDefinition> run_metric_definitions() {
   const std::string project = "this project";
   return {
+      {"reference_relative_error", "sqrt(reference_relmse): what reference.relative_error bounds", project},
       {"fireflies",
        fmt::format("samples whose mean over channels exceeds firefly_multiple * max(mean over channels of r, "
                    "{} of the same averaged over all pixels), before clamping",

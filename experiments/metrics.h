@@ -4,6 +4,7 @@
 
 #include "engine/core/image.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ constexpr double kReferenceFloor = 3.0;  // an error below this times the refere
 struct ReferenceNoise {
   double mse = 0;     // mean(var(r))
   double relmse = 0;  // mean(var(r) / (r^2 + epsilon))
+
+  double relative_error() const { return std::sqrt(relmse); }
 };
 
 struct ErrorMetrics {
@@ -33,6 +36,11 @@ struct ErrorMetrics {
   double bias = 0;
   std::optional<ReferenceNoise> reference;  // unknown where the reference has fewer than two samples
   std::uint64_t non_finite = 0;  // pixels that are not finite in image or reference: left out above
+
+  // The error against the truth, without bias: image and reference share no samples, so that the reference's
+  // variance adds to what is measured. May be negative by chance. Nothing where that variance is unknown.
+  std::optional<double> mse_corrected() const;
+  std::optional<double> relmse_corrected() const;  // the same to first order in the noise of r
 
   // Whether the error cannot be told from the reference's noise, in either norm. False if that is unknown.
   bool at_reference_floor() const;

@@ -34,15 +34,21 @@ Progress::Mode Progress::detect(bool quiet) {
   return ::isatty(STDERR_FILENO) == 1 ? Mode::live : Mode::lines;
 }
 
-void Progress::begin(const std::string& label, int frames, double work_per_frame) {
+void Progress::begin(const std::string& label, int frames, double work_per_frame, int first) {
   end();
   active_ = true;
   label_ = label;
   frames_ = frames;
-  frame_ = 0;
+  frame_ = first;
+  first_ = first;
   work_per_frame_ = work_per_frame;
   stage_start_ = Clock::now();
   last_shown_ = stage_start_;
+}
+
+void Progress::expect(int frames) {
+  planned_ += (frames - frames_) * work_per_frame_;
+  frames_ = frames;
 }
 
 void Progress::step(int frame, std::optional<double> relmse) {
@@ -52,7 +58,7 @@ void Progress::step(int frame, std::optional<double> relmse) {
   if (now - last_shown_ < (live ? Clock::duration(kLiveInterval) : Clock::duration(kLineInterval))) return;
   last_shown_ = now;
   const double stage_left = (frames_ - frame_) * work_per_frame_;
-  const double all_left = planned_ - done_ - frame_ * work_per_frame_;
+  const double all_left = planned_ - done_ - (frame_ - first_) * work_per_frame_;
   show(fmt::format("{}: frame {}/{}{}, {} left of this, {} of all", label_, frame_, frames_,
                    relmse ? fmt::format(", relMSE {:.3g}", *relmse) : "",
                    duration_text(seconds_left(stage_left)), duration_text(seconds_left(all_left))),
@@ -63,10 +69,11 @@ void Progress::end() {
   if (!active_) return;
   active_ = false;
   busy_seconds_ += std::chrono::duration<double>(Clock::now() - stage_start_).count();
-  done_ += frame_ * work_per_frame_;
+  done_ += (frame_ - first_) * work_per_frame_;
   planned_ -= (frames_ - frame_) * work_per_frame_;
   frames_ = 0;
   frame_ = 0;
+  first_ = 0;
 }
 
 void Progress::note(const std::string& line) { show(line, false); }
@@ -77,7 +84,7 @@ void Progress::warning(const std::string& line) {
 }
 
 double Progress::seconds_left(double work) const {
-  const double done = done_ + frame_ * work_per_frame_;
+  const double done = done_ + (frame_ - first_) * work_per_frame_;
   const double seconds = busy_seconds_ + std::chrono::duration<double>(Clock::now() - stage_start_).count();
   return done > 0 ? work * seconds / done : 0;
 }

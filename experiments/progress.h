@@ -24,7 +24,9 @@ class Progress {
 
   // A stage of planned work, which ends with end() or with the next begin(); what it has not done by then
   // is no longer expected.
-  void begin(const std::string& label, int frames, double work_per_frame);
+  // `first`: frames that are there already and were not planned.
+  void begin(const std::string& label, int frames, double work_per_frame, int first = 0);
+  void expect(int frames);  // the stage will end there instead
   void step(int frame, std::optional<double> relmse = {});
   void end();
 
@@ -47,6 +49,7 @@ class Progress {
   bool active_ = false;
   int frames_ = 0;
   int frame_ = 0;
+  int first_ = 0;
   double work_per_frame_ = 0;
 };
 

@@ -50,6 +50,8 @@ void add_error_columns(std::vector<Column<Row>>& columns, const std::string& pre
   column("psnr_db", [](const E& e) { return CsvValue(e.psnr_db); });
   column("flip", [](const E& e) { return maybe(e.flip); });
   column("bias", [](const E& e) { return CsvValue(e.bias); });
+  column("mse_corrected", [](const E& e) { return maybe(e.mse_corrected()); });
+  column("relmse_corrected", [](const E& e) { return maybe(e.relmse_corrected()); });
   column("at_reference_floor", [](const E& e) { return CsvValue(e.at_reference_floor()); });
   column("non_finite_pixels", [](const E& e) { return CsvValue(e.non_finite); });
 }

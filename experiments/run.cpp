@@ -44,6 +44,9 @@ class Execution {
   void run(Progress& progress) {
     const auto reference = job_.get_reference();
     manifest_["reference"] = reference_json(*reference);
+    if (const std::string warning = noise_warning(*reference); !warning.empty()) {
+      manifest_["warnings"].push_back(warning);
+    }
     progress.begin(job_.label, config().frames, run_work(config()) / config().frames);
     begun_ = true;
     const auto start = Clock::now();
@@ -113,12 +116,6 @@ class Execution {
     const std::string warning = light_warning(job_.scene, config());
     if (!warning.empty()) manifest["warnings"].push_back(warning);
     return manifest;
-  }
-
-  static Json reference_json(const Reference& reference) {
-    return {{"hash", reference.spec.hash},          {"file", reference.file.string()},
-            {"origin", reference.origin},           {"definition", reference.spec.definition},
-            {"reference_mse", reference.noise.mse}, {"reference_relmse", reference.noise.relmse}};
   }
 
   void render(Tracer& tracer, const Reference& reference, Progress& progress) {

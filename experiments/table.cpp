@@ -69,9 +69,12 @@ std::string reference_lines(const std::map<std::string, Reference>& references) 
         "- {}: {} frames of {}×{}, sampler {}, nee {}, lights {}, seed {} ({}), noise in relMSE {:.3g}, in "
         "MSE {:.3g}, "
         "hash {}\n",
-        reference.scene, reference.spec.frames, settings.width, settings.height, enum_name(settings.sampler),
+        reference.scene, reference.samples, settings.width, settings.height, enum_name(settings.sampler),
         enum_name(settings.nee), enum_name(settings.lights), settings.seed, reference.origin,
         reference.noise.relmse, reference.noise.mse, hash);
+    if (const std::string warning = noise_warning(reference); !warning.empty()) {
+      lines += fmt::format("  (Warning: {})\n", warning);
+    }
     if (reference.non_finite > 0) {
       lines += fmt::format("  ({} samples of it were not finite and count as 0)\n", reference.non_finite);
     }

@@ -35,6 +35,7 @@ class Buffer {
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
+  const std::string& name() const { return name_; }
   std::size_t bytes() const { return bytes_; }
   void bind_storage(int binding) const;
   void bind_uniform(int binding) const;

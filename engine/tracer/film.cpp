@@ -36,6 +36,26 @@ double variance_of_mean(double sum, double squares, double n) {
   return std::max(0.0, (squares - sum * sum / n) / (n - 1) / n);
 }
 
+gpu::PixelSum add(const gpu::PixelSum& a, const gpu::PixelSum& b) {
+  return {a.r + b.r,
+          a.g + b.g,
+          a.b + b.b,
+          a.r_squared + b.r_squared,
+          a.g_squared + b.g_squared,
+          a.b_squared + b.b_squared};
+}
+
+RadianceImage image_of(const std::vector<gpu::PixelSum>& sums, int width, int height, std::uint32_t frames) {
+  RadianceImage image{width, height, frames, {}, {}};
+  const double n = frames;
+  for (const gpu::PixelSum& s : sums) {
+    image.mean.push_back(frames > 0 ? glm::dvec3(s.r, s.g, s.b) / n : glm::dvec3(0));
+    image.variance.emplace_back(variance_of_mean(s.r, s.r_squared, n), variance_of_mean(s.g, s.g_squared, n),
+                                variance_of_mean(s.b, s.b_squared, n));
+  }
+  return image;
+}
+
 }  // namespace
 
 Film::Film(int width, int height)
@@ -43,8 +63,9 @@ Film::Film(int width, int height)
       height_(height),
       samples_("pixel samples",
                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample)),
-      sums_("pixel sums",
-            static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
+      odd_sums_("pixel sums of odd frames",
+                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
+      even_sums_("pixel sums of even frames", odd_sums_.bytes()),
       outliers_("pixel outliers", static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                       sizeof(gpu::PixelOutliers)),
       statistics_("statistics", sizeof(gpu::Statistics)),
@@ -52,7 +73,6 @@ Film::Film(int width, int height)
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
-  sums_.bind_storage(gpu::BINDING_SUMS);
   outliers_.bind_storage(gpu::BINDING_OUTLIERS);
   statistics_.bind_storage(gpu::BINDING_STATISTICS);
 }
@@ -63,13 +83,15 @@ void Film::start_frame() {
 }
 
 void Film::accumulate(std::uint32_t frame) {
+  (frame % 2 == 1 ? odd_sums_ : even_sums_).bind_storage(gpu::BINDING_SUMS);
   accumulate_.set_frame(frame);
   accumulate_.dispatch(tiles(width_), tiles(height_));
 }
 
 void Film::reset() {
   samples_.clear();
-  sums_.clear();
+  odd_sums_.clear();
+  even_sums_.clear();
   statistics_.clear();
   const auto pixels = outliers_.bytes() / sizeof(gpu::PixelOutliers);
   set_firefly_thresholds(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
@@ -133,14 +155,17 @@ Outliers Film::outliers() const {
 
 RadianceImage Film::radiance(std::uint32_t frames) const {
   check_loops();
-  RadianceImage image{width_, height_, frames, {}, {}};
-  const double n = frames;
-  for (const gpu::PixelSum& s : sums_.read_all<gpu::PixelSum>()) {
-    image.mean.push_back(frames > 0 ? glm::dvec3(s.r, s.g, s.b) / n : glm::dvec3(0));
-    image.variance.emplace_back(variance_of_mean(s.r, s.r_squared, n), variance_of_mean(s.g, s.g_squared, n),
-                                variance_of_mean(s.b, s.b_squared, n));
-  }
-  return image;
+  auto sums = odd_sums_.read_all<gpu::PixelSum>();
+  std::ranges::transform(sums, even_sums_.read_all<gpu::PixelSum>(), sums.begin(), add);
+  return image_of(sums, width_, height_, frames);
 }
+
+std::array<RadianceImage, 2> Film::halves(std::uint32_t frames) const {
+  check_loops();
+  return {image_of(odd_sums_.read_all<gpu::PixelSum>(), width_, height_, (frames + 1) / 2),
+          image_of(even_sums_.read_all<gpu::PixelSum>(), width_, height_, frames / 2)};
+}
+
+std::vector<gpu::Buffer*> Film::gathered() { return {&odd_sums_, &even_sums_, &outliers_, &statistics_}; }
 
 }  // namespace qtrace

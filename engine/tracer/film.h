@@ -1,4 +1,4 @@
-// Per-pixel sums over the frames, and the counts of the last frame.
+// Per-pixel sums over the frames, odd and even ones apart, and the counts of the last frame.
 #pragma once
 
 #include "engine/core/image.h"
@@ -6,6 +6,7 @@
 #include "engine/gpu/program.h"
 #include "engine/tracer/statistics.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,17 +30,23 @@ class Film {
   std::vector<NonFiniteSample> non_finite_samples() const;  // ordered by frame, then position
   Outliers outliers() const;
   RadianceImage radiance(std::uint32_t frames) const;
+  std::array<RadianceImage, 2> halves(std::uint32_t frames) const;  // of the odd and of the even frames
   void check_loops() const;
 
+  // What has gathered over the frames so far.
+  std::vector<gpu::Buffer*> gathered();
+
   std::size_t bytes() const {
-    return samples_.bytes() + sums_.bytes() + outliers_.bytes() + statistics_.bytes();
+    return samples_.bytes() + odd_sums_.bytes() + even_sums_.bytes() + outliers_.bytes() +
+           statistics_.bytes();
   }
 
  private:
   int width_;
   int height_;
   gpu::Buffer samples_;
-  gpu::Buffer sums_;
+  gpu::Buffer odd_sums_;
+  gpu::Buffer even_sums_;
   gpu::Buffer outliers_;
   gpu::Buffer statistics_;
   gpu::Program accumulate_;

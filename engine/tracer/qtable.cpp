@@ -78,6 +78,8 @@ void QTable::forget_touched() {
   touched_.write(0, &head, sizeof(head));
 }
 
+std::vector<gpu::Buffer*> QTable::learned() { return {&values_, &visits_, &starts_, &next_values_}; }
+
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() + starts_.bytes() +
          next_values_.bytes() + touched_.bytes() + places_.bytes();

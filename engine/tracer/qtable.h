@@ -27,6 +27,9 @@ class QTable {
   // As at the start: initial values, nothing visited. Parameters must be bound.
   void reset();
 
+  // What has been learned, and what the next frame draws from; between frames there is no more.
+  std::vector<gpu::Buffer*> learned();
+
   const CellBuffers& cells() const { return cells_; }
   std::size_t bytes() const;
 

@@ -9,6 +9,8 @@
 #include "engine/tracer/shader_variant.h"
 #include "engine/tracer/tiles.h"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -57,6 +59,12 @@ struct Tracer::State {
 
   std::pair<std::uint32_t, std::uint32_t> groups() const {
     return {tiles(settings.width), tiles(settings.height)};
+  }
+
+  std::vector<gpu::Buffer*> gathered() {
+    std::vector<gpu::Buffer*> all = film.gathered();
+    if (table) std::ranges::copy(table->learned(), std::back_inserter(all));
+    return all;
   }
 
   // Drivers compile at the first dispatch: one work group of each shader, then everything as at the start.
@@ -127,6 +135,33 @@ std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_-
 Outliers Tracer::outliers() const { return state_->film.outliers(); }
 
 RadianceImage Tracer::radiance() const { return state_->film.radiance(state_->frames); }
+
+std::array<RadianceImage, 2> Tracer::halves() const { return state_->film.halves(state_->frames); }
+
+TracerState Tracer::state() const {
+  state_->film.check_loops();
+  TracerState saved{state_->frames, {}};
+  for (const gpu::Buffer* buffer : state_->gathered()) {
+    saved.buffers.push_back({buffer->name(), buffer->read_all<std::byte>()});
+  }
+  return saved;
+}
+
+void Tracer::restore(const TracerState& saved) {
+  const std::vector<gpu::Buffer*> buffers = state_->gathered();
+  check(saved.buffers.size() == buffers.size(), "the state has {} buffers where this tracer has {}",
+        saved.buffers.size(), buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const SavedBuffer& from = saved.buffers[i];
+    check(from.name == buffers[i]->name() && from.bytes.size() == buffers[i]->bytes(),
+          "the state has {} bytes of {} where this tracer has {} of {}", from.bytes.size(), from.name,
+          buffers[i]->bytes(), buffers[i]->name());
+  }
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
+  }
+  state_->frames = saved.frames;
+}
 
 FirstHitImage Tracer::first_hit() const {
   const State& s = *state_;

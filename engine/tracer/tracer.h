@@ -7,7 +7,9 @@
 #include "engine/scene/scene.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/statistics.h"
+#include "engine/tracer/tracer_state.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,7 +41,14 @@ class Tracer {
   std::vector<NonFiniteSample> non_finite_samples() const;  // some of all frames so far, at most 64
   Outliers outliers() const;                                // fireflies and clamping over all frames so far
   RadianceImage radiance() const;                           // mean and its variance over all frames
+  std::array<RadianceImage, 2> halves() const;              // the same over the odd and over the even frames
   FirstHitImage first_hit() const;
+
+  // To go on later: a tracer of the same scene and settings that restores a state continues after its frames
+  // with the bits of one that was never interrupted. Throws Error, and changes nothing, where the state is of
+  // another size or has other buffers.
+  TracerState state() const;
+  void restore(const TracerState& state);
 
   const std::vector<std::string>& warnings()
       const;                         // what of scene and settings is rendered otherwise, and how

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 namespace qtrace::tests {
 namespace {
@@ -35,10 +38,8 @@ class Capture {
   fs::path file_;
 };
 
-}  // namespace
-
-Outcome run_qtrace(const std::vector<std::string>& arguments, const fs::path& working) {
-  const Capture out, err;
+pid_t start_qtrace(const std::vector<std::string>& arguments, const fs::path& working, const Capture& out,
+                   const Capture& err) {
   // "cd" through sh, because posix_spawn's own change of folder is not in every C library; the arguments
   // travel beside the script, so that nothing needs quoting.
   std::vector<std::string> words{"sh", "-c", "cd \"$0\" && exec \"$@\"", working.string(), QTRACE_BINARY};
@@ -55,9 +56,31 @@ Outcome run_qtrace(const std::vector<std::string>& arguments, const fs::path& wo
   const int spawned = ::posix_spawn(&child, "/bin/sh", &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (spawned != 0) throw std::runtime_error("cannot start /bin/sh");
+  return child;
+}
+
+}  // namespace
+
+Outcome run_qtrace(const std::vector<std::string>& arguments, const fs::path& working) {
+  const Capture out, err;
+  const pid_t child = start_qtrace(arguments, working, out, err);
   int status = 0;
   ::waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out.file()), read_text(err.file())};
+}
+
+bool kill_qtrace_when(const std::vector<std::string>& arguments, const fs::path& working,
+                      const std::function<bool()>& ready) {
+  const Capture out, err;
+  const pid_t child = start_qtrace(arguments, working, out, err);
+  int status = 0;
+  while (!ready()) {
+    if (::waitpid(child, &status, WNOHANG) == child) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
 }
 
 std::string read_text(const fs::path& file) {

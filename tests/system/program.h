@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct Outcome {
 
 // Runs QTRACE_BINARY with these arguments in the folder `working`, without a shell.
 Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesystem::path& working);
+
+// Starts the same and kills it (SIGKILL) as soon as `ready` says so. Returns whether it was still running.
+bool kill_qtrace_when(const std::vector<std::string>& arguments, const std::filesystem::path& working,
+                      const std::function<bool()>& ready);
 
 std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -1,11 +1,13 @@
 // Metrics on tiny images, against values worked out by hand.
 #include "experiments/metrics.h"
 #include "engine/core/check.h"
+#include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace qtrace::experiments {
 namespace {
@@ -113,9 +115,52 @@ TEST(Metrics, FloorIsThreeTimesTheNoise) {
   EXPECT_FALSE(compare_images(grey({2}), grey({1}, 1.0 / 3 - 1e-9)).at_reference_floor());
 }
 
+// An image at a known distance from the truth, against references of independent normal noise whose variance
+// is estimated from their own samples: the correction takes out what the noise adds.
+TEST(Metrics, CorrectedErrorsAreThoseAgainstTheTruth) {
+  constexpr int kTrials = 4000, kSamples = 4;
+  const std::vector<double> truth{1, 2, 3, 4}, shown{1.1, 2, 2.8, 4.1};
+  const ErrorMetrics exact = compare_images(grey(shown), grey(truth));
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal(0, 0.4);
+  double mse = 0, squares = 0, relmse = 0, measured = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    RadianceImage reference = grey(truth, 0, kSamples);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      double sum = 0, sum_of_squares = 0;
+      for (int s = 0; s < kSamples; ++s) {
+        const double sample = truth[i] + normal(random);
+        sum += sample;
+        sum_of_squares += sample * sample;
+      }
+      const double mean = sum / kSamples;
+      reference.mean[i] = glm::dvec3(mean);
+      reference.variance[i] = glm::dvec3((sum_of_squares - sum * mean) / (kSamples - 1) / kSamples);
+    }
+    const ErrorMetrics errors = compare_images(grey(shown), reference);
+    mse += *errors.mse_corrected() / kTrials;
+    squares += *errors.mse_corrected() * *errors.mse_corrected() / kTrials;
+    relmse += *errors.relmse_corrected() / kTrials;
+    measured += errors.mse / kTrials;
+  }
+  const double standard_error = std::sqrt((squares - mse * mse) / kTrials);
+  EXPECT_LT(std::abs(mse - exact.mse), test::z_threshold(2) * standard_error);
+  EXPECT_LT(std::abs(measured - exact.mse - 0.16 / kSamples), test::z_threshold(2) * standard_error);
+  EXPECT_GT(measured - exact.mse, 10 * standard_error);  // else the test would show nothing
+  EXPECT_NEAR(relmse, exact.relmse, 0.2 * exact.relmse);
+}
+
+TEST(Metrics, CorrectedErrorsMayBeNegative) {
+  const ErrorMetrics errors = compare_images(grey({1, 1}), grey({1, 1}, 0.5));
+  EXPECT_EQ(errors.mse_corrected(), -0.5);
+  EXPECT_EQ(errors.relmse_corrected(), -0.5 / 1.01);
+}
+
 TEST(Metrics, OneSampleHasNoKnownNoise) {
   const ErrorMetrics errors = compare_images(grey({1}), grey({1}, 0, 1));
   EXPECT_FALSE(errors.reference.has_value());
+  EXPECT_FALSE(errors.mse_corrected().has_value());
+  EXPECT_FALSE(errors.relmse_corrected().has_value());
   EXPECT_FALSE(errors.at_reference_floor());
 }
 

@@ -110,6 +110,7 @@ TEST(Records, SnapshotColumnsLeaveUnknownNoiseEmpty) {
   EXPECT_EQ(field(columns, row, "spp"), "8");
   EXPECT_EQ(field(columns, row, "relmse"), "0.25");
   EXPECT_EQ(field(columns, row, "reference_relmse"), "");
+  EXPECT_EQ(field(columns, row, "relmse_corrected"), "");
   EXPECT_EQ(field(columns, row, "flip"), "");  // not asked for
   row.errors.smape = 0.5;
   row.errors.psnr_db = 12;
@@ -119,6 +120,8 @@ TEST(Records, SnapshotColumnsLeaveUnknownNoiseEmpty) {
   EXPECT_EQ(field(columns, row, "flip"), "0.0625");
   row.errors.reference = ReferenceNoise{1, 0.125};
   EXPECT_EQ(field(columns, row, "reference_relmse"), "0.125");
+  EXPECT_EQ(field(columns, row, "relmse_corrected"), "0.125");
+  EXPECT_EQ(field(columns, row, "mse_corrected"), "-1");
   EXPECT_EQ(field(columns, row, "at_reference_floor"), "1");
 }
 

@@ -1,7 +1,7 @@
 // What a reference's hash depends on, and which files can serve.
-#include "experiments/reference.h"
 #include "engine/core/check.h"
 #include "experiments/exr.h"
+#include "experiments/reference_store.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +39,15 @@ TEST(Reference, NeverLearns) {
   EXPECT_EQ(spec.hash.size(), 32U);
 }
 
+TEST(Reference, SamplesLightsAsItIsTold) {
+  RunConfig config = small_config();
+  config.reference.nee = Nee::none;
+  config.reference.lights = LightChoice::uniform;
+  const ReferenceSpec spec = reference_spec(config, "scene");
+  EXPECT_EQ(spec.settings.nee, Nee::none);
+  EXPECT_EQ(spec.settings.lights, LightChoice::uniform);
+}
+
 TEST(Reference, NeverClamps) {
   RunConfig config = small_config();
   config.render.clamp_radiance = 3;
@@ -61,6 +70,9 @@ TEST(Reference, IsSharedByRunsThatEstimateTheSame) {
   other.filter.kind = FilterKind::atrous;
   other.firefly_multiple = 7;
   other.frames = 2;
+  other.reference.frames = 9;  // how long it is: the same one, extended
+  other.reference.relative_error = 0.5;
+  other.reference.max_frames = 10;
   EXPECT_EQ(hash_of(config), hash_of(other));
 }
 
@@ -71,12 +83,51 @@ TEST(Reference, HashKnowsEverythingThatDefinesTheImage) {
   others[1].render.height = 3;
   others[2].render.max_bounces = 4;
   others[3].render.environment = {0, 0, 1};
-  others[4].reference.frames = 5;
+  others[4].reference.nee = Nee::none;
   others[5].reference.seed = 5;
   std::set<std::string> hashes{hash_of(config), hash_of(config, "scenf")};
   for (std::size_t i = 0; i < 6; ++i) hashes.insert(hash_of(others[i]));
   EXPECT_EQ(hashes.size(), 8U);
   EXPECT_EQ(hash_of(config), hash_of(others[6]));
+}
+
+TEST(ReferenceWish, IsAboutLengthAndNoise) {
+  const ReferenceNoise noise{0, 0.25};  // a relative error of 0.5
+  const ReferenceWish length{8, 0, 10};
+  EXPECT_FALSE(length.met(7, noise));
+  EXPECT_TRUE(length.met(8, noise));
+  const ReferenceWish quiet{8, 0.5, 10};
+  EXPECT_FALSE(quiet.met(7, noise));
+  EXPECT_TRUE(quiet.met(8, noise));
+  const ReferenceWish quieter{8, 0.49, 10};
+  EXPECT_FALSE(quieter.met(100, noise));
+  EXPECT_FALSE(quieter.settled(9, noise));
+  EXPECT_TRUE(quieter.settled(10, noise));
+}
+
+TEST(ReferenceWish, LooksAtMultiplesThatDoNotDependOnThePast) {
+  const ReferenceWish wish{20, 0.1, 100};
+  EXPECT_EQ(wish.next_look(0), 20);
+  EXPECT_EQ(wish.next_look(20), 20);
+  EXPECT_EQ(wish.next_look(21), 32);
+  EXPECT_EQ(wish.next_look(32), 32);
+  EXPECT_EQ(wish.next_look(33), 48);
+  EXPECT_EQ(wish.next_look(97), 100);
+  const ReferenceWish length{20, 0, 100};
+  EXPECT_EQ(length.next_look(0), 20);
+  EXPECT_EQ(length.next_look(21), 21);
+}
+
+TEST(ReferenceWish, OfTwoRunsServesBoth) {
+  const ReferenceWish length{50, 0, 9999};
+  const ReferenceWish noise{8, 0.5, 64};
+  for (const ReferenceWish& both : {length.joined(noise), noise.joined(length)}) {
+    EXPECT_EQ(both.frames, 50);
+    EXPECT_EQ(both.relative_error, 0.5);
+    EXPECT_EQ(both.max_frames, 64);
+  }
+  EXPECT_EQ(noise.joined({8, 0.25, 32}).relative_error, 0.25);
+  EXPECT_EQ(noise.joined({8, 0.25, 32}).max_frames, 64);
 }
 
 class ReferenceFiles : public testing::Test {
@@ -103,14 +154,16 @@ TEST_F(ReferenceFiles, AreReadWithTheirVariance) {
   EXPECT_EQ(image.samples, 4U);
 }
 
-TEST_F(ReferenceFiles, OfOtherHashSizeOrLengthAreRefused) {
+TEST_F(ReferenceFiles, OfOtherHashOrSizeAreRefused) {
   EXPECT_NE(error_of(small_image(), "0123").find("is not the reference"), std::string::npos);
   RadianceImage image = small_image();
   std::swap(image.width, image.height);
   EXPECT_NE(error_of(image, spec_.hash).find("has 1x2 pixels but must have 2x1"), std::string::npos);
   image = small_image();
-  image.samples = 3;
-  EXPECT_NE(error_of(image, spec_.hash).find("has 3 samples per pixel but must have 4"), std::string::npos);
+  image.samples = 3;  // too few for the wish, but to be extended
+  EXPECT_EQ(error_of(image, spec_.hash), "no error");
+  image.samples = 1;
+  EXPECT_NE(error_of(image, spec_.hash).find("has 1 samples per pixel but must have 2"), std::string::npos);
 }
 
 TEST_F(ReferenceFiles, WithNonFinitePixelsAreRefused) {
@@ -120,15 +173,29 @@ TEST_F(ReferenceFiles, WithNonFinitePixelsAreRefused) {
 }
 
 TEST_F(ReferenceFiles, AreFoundInResultsAndBesideConfigs) {
-  const auto exists = [this] {
-    return ReferenceStore::exists(spec_, folder_ / "results", folder_ / "configs");
+  const auto outlook = [this] {
+    return ReferenceStore::outlook(spec_, folder_ / "results", folder_ / "configs");
   };
-  EXPECT_FALSE(exists());
-  const auto shipped = folder_.write("configs/references/" + spec_.hash + ".exr", "");
-  EXPECT_TRUE(exists());
-  std::filesystem::remove(shipped);
-  folder_.write("results/references/" + spec_.hash + ".exr", "");
-  EXPECT_TRUE(exists());
+  const auto keep = [this](const std::string& place, std::uint64_t samples) {
+    const std::filesystem::path file = folder_.write(place + "/references/" + spec_.hash + ".exr", "damaged");
+    if (samples == 0) return;
+    RadianceImage image = small_image();
+    image.samples = samples;
+    write_exr(file, to_exr(image, {{"referenceHash", spec_.hash}}));
+  };
+  EXPECT_FALSE(outlook().enough);
+  EXPECT_EQ(outlook().frames, 0);
+  keep("configs", 4);
+  EXPECT_TRUE(outlook().enough);
+  EXPECT_EQ(outlook().frames, 4);
+  keep("results", 7);
+  EXPECT_EQ(outlook().frames, 7);
+  keep("results", 3);  // too short
+  EXPECT_EQ(outlook().frames, 4);
+  keep("results", 0);
+  EXPECT_EQ(outlook().frames, 4);
+  keep("configs", 3);
+  EXPECT_FALSE(outlook().enough);
 }
 
 }  // namespace
