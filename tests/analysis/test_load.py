@@ -12,7 +12,8 @@ FIRST_RUN = "scene=simple,method=nee-two-rays,seed=1"
 
 class ContractTest(unittest.TestCase):
     def test_every_column_used_is_one_that_the_program_writes(self) -> None:
-        declared = (ROOT / "experiments" / "records.cpp").read_text(encoding="utf-8")
+        declared = "".join((ROOT / "experiments" / name).read_text(encoding="utf-8")
+                           for name in ("records.cpp", "cell_columns.cpp", "ratio_columns.cpp"))
         for column in {*SUMMARY_COLUMNS, *CONVERGENCE_COLUMNS, *FRAMES_COLUMNS, *csv_file.TEXT, *csv_file.BOOLEAN}:
             self.assertIn(f'"{column}"', declared)
 
