@@ -44,7 +44,7 @@ class ReferenceStore {
   const gpu::Context& context_;
   std::filesystem::path results_root_;
   Progress& progress_;
-  std::shared_ptr<const Reference> last_;  // runs of one scene follow each other
+  std::shared_ptr<const Reference> last_;  // the others are read again when their turn comes
   std::map<std::string, Reference> used_;
   std::map<std::string, std::string> failures_;
 };
