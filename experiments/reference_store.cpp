@@ -111,7 +111,8 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
   reference.samples = reference.image.samples;
   reference.noise = *reference_noise(reference.image);
   reference.non_finite = found->stored.non_finite;
-  if (reference.non_finite > 0 && !used_.contains(spec.hash)) {
+  if (used_.contains(spec.hash)) return reference;  // warned of before
+  if (reference.non_finite > 0) {
     progress_.warning(fmt::format("{}: {} samples of this reference were not finite and count as 0 in it",
                                   reference.file.string(), reference.non_finite));
   }

@@ -74,13 +74,16 @@ bool kill_qtrace_when(const std::vector<std::string>& arguments, const fs::path&
   const Capture out, err;
   const pid_t child = start_qtrace(arguments, working, out, err);
   int status = 0;
-  while (!ready()) {
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  bool is_ready = false;
+  while (!is_ready && std::chrono::steady_clock::now() < latest) {
     if (::waitpid(child, &status, WNOHANG) == child) return false;
+    is_ready = ready();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   ::kill(child, SIGKILL);
   ::waitpid(child, &status, 0);
-  return WIFSIGNALED(status);
+  return is_ready && WIFSIGNALED(status);
 }
 
 std::string read_text(const fs::path& file) {
