@@ -3,6 +3,7 @@
 #include "tests/system/small_scene.h"
 
 #include "experiments/experiment.h"
+#include "experiments/reference_store.h"
 #include "experiments/run.h"
 
 #include <gtest/gtest.h>
