@@ -48,9 +48,12 @@ class Rendering {
     const auto stored = read_reference_state(file_, spec_, complain);
     if (!stored) return false;
     try {
+      // Whatever may fail, before anything is changed.
+      const Json parts = stored->about.at("parts");
+      const auto non_finite = stored->about.at("non_finite").get<std::uint64_t>();
       tracer_.restore(stored->state);
-      parts_ = stored->about.at("parts");
-      non_finite_ = stored->about.at("non_finite").get<std::uint64_t>();
+      parts_ = parts;
+      non_finite_ = non_finite;
     } catch (const std::exception& error) {
       complain(Error(fmt::format("{}: {}", state_file(file_).string(), error.what())));
       return false;
