@@ -1,77 +1,10 @@
 // Experiments from end to end: files, repeatability, references, failures.
-#include "tests/system/program.h"
-#include "tests/system/small_scene.h"
-
-#include "experiments/exr.h"
-#include "experiments/json.h"
-
-#include <gtest/gtest.h>
+#include "tests/system/run_program.h"
 
 #include <cmath>
-#include <map>
 
 namespace qtrace::tests {
 namespace {
-
-using experiments::Json;
-using experiments::parse_json;
-using experiments::read_exr;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-// Fields by column name, one map per record; quotes and CRLF as in RFC 4180.
-std::vector<std::map<std::string, std::string>> parse_csv(const std::string& text) {
-  std::vector<std::vector<std::string>> records(1, std::vector<std::string>(1));
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') {
-      if (quoted && i + 1 < text.size() && text[i + 1] == '"') {
-        records.back().back() += text[++i];
-      } else {
-        quoted = !quoted;
-      }
-    } else if (!quoted && c == ',') {
-      records.back().emplace_back();
-    } else if (!quoted && c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') {
-      ++i;
-      if (i + 1 < text.size()) records.emplace_back(1);
-    } else {
-      records.back().back() += c;
-    }
-  }
-  std::vector<std::map<std::string, std::string>> rows;
-  for (std::size_t r = 1; r < records.size(); ++r) {
-    EXPECT_EQ(records[r].size(), records[0].size());
-    rows.emplace_back();
-    for (std::size_t i = 0; i < records[0].size(); ++i) rows.back()[records[0][i]] = records[r].at(i);
-  }
-  return rows;
-}
-
-class RunProgram : public testing::Test {
- protected:
-  RunProgram() { write_small_scene(folder_, "scene"); }
-
-  // Runs a config of this name; extra arguments follow.
-  Outcome run(const std::string& name, const std::string& members,
-              const std::vector<std::string>& more = {}) const {
-    folder_.write(name + ".json", small_config(name, members));
-    std::vector<std::string> arguments{"run", name + ".json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_qtrace(arguments, folder_.path());
-  }
-
-  Json json(const std::string& file) const { return parse_json(folder_.read(file)); }
-
-  TempFolder folder_;
-};
-
-constexpr const char* kMethods =
-    R"("sweep": [{"method": {"NEE, one ray": {"sampler": "bsdf", "nee": "one_ray"}, "RL": {"sampler": "rl"}}},
-                 {"seed": [1, 2]}], )";
 
 TEST_F(RunProgram, WritesEveryFileOfEveryRun) {
   const Outcome outcome = run("e2e", kMethods);
@@ -102,62 +35,6 @@ TEST_F(RunProgram, WritesEveryFileOfEveryRun) {
     }
   }
   for (const std::string& name : tree(folder_.path())) EXPECT_FALSE(contains(name, ".tmp")) << name;
-}
-
-// Cells take turns, seed by seed, whatever the order of the axes; files keep the order of the config.
-TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
-  ASSERT_EQ(run("turns", kMethods).exit_code, 0);
-  const auto summary = parse_csv(folder_.read("results/turns/summary.csv"));
-  const std::vector<std::string> order{"1", "3", "2", "4"};  // NEE seed 1, 2, RL seed 1, 2
-  const Json runs = json("results/turns/manifest.json").at("runs");
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    EXPECT_EQ(summary.at(i).at("order"), order[i]);
-    EXPECT_EQ(std::to_string(runs.at(i).at("order").get<int>()), order[i]);
-    EXPECT_EQ(runs.at(i).at("run"), summary[i].at("run"));
-    EXPECT_EQ(runs.at(i).at("started"), summary[i].at("started"));
-  }
-  EXPECT_LE(summary[2].at("started"), summary[1].at("started"));
-}
-
-TEST_F(RunProgram, CellsAndRatiosHaveIntervals) {
-  const Outcome outcome = run("ratios", std::string(kMethods) + R"("baseline": "NEE, one ray", )");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto cells = parse_csv(folder_.read("results/ratios/cells.csv"));
-  ASSERT_EQ(cells.size(), 2U);
-  const auto summary = parse_csv(folder_.read("results/ratios/summary.csv"));
-  EXPECT_EQ(cells[1].at("cell"), "RL");
-  EXPECT_EQ(cells[1].at("seeds"), "2");
-  EXPECT_NEAR(std::stod(cells[1].at("mse")),
-              (std::stod(summary[2].at("mse")) + std::stod(summary[3].at("mse"))) / 2, 1e-12);
-  EXPECT_LT(std::stod(cells[1].at("mse_low")), std::stod(cells[1].at("mse")));
-  EXPECT_GT(std::stod(cells[1].at("mse_high")), std::stod(cells[1].at("mse")));
-  EXPECT_FALSE(cells[1].at("slope_mse").empty());
-  // E(mse) = variance + bias2 + reference noise holds for the means over seeds exactly.
-  for (const auto& cell : cells) {
-    EXPECT_NEAR(std::stod(cell.at("mse")),
-                std::stod(cell.at("variance")) + std::stod(cell.at("bias2")) +
-                    std::stod(summary[0].at("reference_mse")),
-                1e-6 * std::stod(cell.at("mse")));
-  }
-
-  const auto ratios = parse_csv(folder_.read("results/ratios/ratios.csv"));
-  ASSERT_EQ(ratios.size(), 1U);
-  EXPECT_EQ(ratios[0].at("cell"), "RL");
-  EXPECT_EQ(ratios[0].at("baseline"), "NEE, one ray");
-  EXPECT_NEAR(std::stod(ratios[0].at("ratio_mse")),
-              std::stod(cells[0].at("mse")) / std::stod(cells[1].at("mse")), 1e-12);
-  EXPECT_EQ(ratios[0].at("target_mse"), cells[0].at("mse"));
-  EXPECT_TRUE(contains(outcome.out, "time to the baseline's relMSE"));
-}
-
-TEST_F(RunProgram, AnUnknownBaselineIsRefused) {
-  const Outcome outcome = run("lost", std::string(kMethods) + R"("baseline": "NEE, one rai", )");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_TRUE(contains(outcome.err,
-                       "key 'baseline' is 'NEE, one rai' but must be a label or a cell of the sweep; "
-                       "did you mean 'NEE, one ray'?"))
-      << outcome.err;
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
 }
 
 TEST_F(RunProgram, TablesAndManifestsAgree) {

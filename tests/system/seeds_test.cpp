@@ -1,0 +1,66 @@
+// Repetitions and baselines of a sweep, from end to end.
+#include "tests/system/run_program.h"
+
+#include <cmath>
+
+namespace qtrace::tests {
+namespace {
+
+// Cells take turns, seed by seed, whatever the order of the axes; files keep the order of the config.
+TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
+  ASSERT_EQ(run("turns", kMethods).exit_code, 0);
+  const auto summary = parse_csv(folder_.read("results/turns/summary.csv"));
+  const std::vector<std::string> order{"1", "3", "2", "4"};  // NEE seed 1, 2, RL seed 1, 2
+  const Json runs = json("results/turns/manifest.json").at("runs");
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(summary.at(i).at("order"), order[i]);
+    EXPECT_EQ(std::to_string(runs.at(i).at("order").get<int>()), order[i]);
+    EXPECT_EQ(runs.at(i).at("run"), summary[i].at("run"));
+    EXPECT_EQ(runs.at(i).at("started"), summary[i].at("started"));
+  }
+  EXPECT_LE(summary[2].at("started"), summary[1].at("started"));
+}
+
+TEST_F(RunProgram, CellsAndRatiosHaveIntervals) {
+  const Outcome outcome = run("ratios", std::string(kMethods) + R"("baseline": "NEE, one ray", )");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto cells = parse_csv(folder_.read("results/ratios/cells.csv"));
+  ASSERT_EQ(cells.size(), 2U);
+  const auto summary = parse_csv(folder_.read("results/ratios/summary.csv"));
+  EXPECT_EQ(cells[1].at("cell"), "RL");
+  EXPECT_EQ(cells[1].at("seeds"), "2");
+  EXPECT_NEAR(std::stod(cells[1].at("mse")),
+              (std::stod(summary[2].at("mse")) + std::stod(summary[3].at("mse"))) / 2, 1e-12);
+  EXPECT_LT(std::stod(cells[1].at("mse_low")), std::stod(cells[1].at("mse")));
+  EXPECT_GT(std::stod(cells[1].at("mse_high")), std::stod(cells[1].at("mse")));
+  EXPECT_FALSE(cells[1].at("slope_mse").empty());
+  // E(mse) = variance + bias2 + reference noise holds for the means over seeds exactly.
+  for (const auto& cell : cells) {
+    EXPECT_NEAR(std::stod(cell.at("mse")),
+                std::stod(cell.at("variance")) + std::stod(cell.at("bias2")) +
+                    std::stod(summary[0].at("reference_mse")),
+                1e-6 * std::stod(cell.at("mse")));
+  }
+
+  const auto ratios = parse_csv(folder_.read("results/ratios/ratios.csv"));
+  ASSERT_EQ(ratios.size(), 1U);
+  EXPECT_EQ(ratios[0].at("cell"), "RL");
+  EXPECT_EQ(ratios[0].at("baseline"), "NEE, one ray");
+  EXPECT_NEAR(std::stod(ratios[0].at("ratio_mse")),
+              std::stod(cells[0].at("mse")) / std::stod(cells[1].at("mse")), 1e-12);
+  EXPECT_EQ(ratios[0].at("target_mse"), cells[0].at("mse"));
+  EXPECT_TRUE(contains(outcome.out, "time to the baseline's relMSE"));
+}
+
+TEST_F(RunProgram, AnUnknownBaselineIsRefused) {
+  const Outcome outcome = run("lost", std::string(kMethods) + R"("baseline": "NEE, one rai", )");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err,
+                       "key 'baseline' is 'NEE, one rai' but must be a label or a cell of the sweep; "
+                       "did you mean 'NEE, one ray'?"))
+      << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
+}
+
+}  // namespace
+}  // namespace qtrace::tests
