@@ -149,7 +149,7 @@ TEST(Metrics, CorrectedErrorsAreThoseAgainstTheTruth) {
   EXPECT_LT(std::abs(mse - exact.mse), test::z_threshold(2) * standard_error);
   EXPECT_LT(std::abs(measured - exact.mse - kDeviation * kDeviation / kSamples),
             test::z_threshold(2) * standard_error);
-  EXPECT_GT(measured - exact.mse, 10 * standard_error);    // else the test would show nothing
+  EXPECT_GT(measured - exact.mse, 10 * standard_error);   // else the test would show nothing
   EXPECT_NEAR(relmse, exact.relmse, 0.1 * exact.relmse);  // what is of second order in the noise stays
   EXPECT_GT(measured_relmse, 1.2 * exact.relmse);
 }
