@@ -8,10 +8,6 @@
 namespace qtrace::tests {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class CommandLine : public testing::Test {
  protected:
   CommandLine() { write_small_scene(folder_, "scene"); }

@@ -13,10 +13,6 @@ namespace {
 using experiments::ExrImage;
 using experiments::read_exr;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class InspectProgram : public testing::Test {
  protected:
   InspectProgram() { write_small_scene(folder_, "scene"); }

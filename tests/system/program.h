@@ -22,6 +22,10 @@ Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesys
 bool kill_qtrace_when(const std::vector<std::string>& arguments, const std::filesystem::path& working,
                       const std::function<bool()>& ready);
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 

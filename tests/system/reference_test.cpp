@@ -17,10 +17,6 @@ namespace fs = std::filesystem;
 using experiments::Json;
 using experiments::parse_json;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class ReferenceProgram : public testing::Test {
  protected:
   ReferenceProgram() {

@@ -19,10 +19,6 @@ using experiments::Json;
 using experiments::parse_json;
 using experiments::read_exr;
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // Fields by column name, one map per record; quotes and CRLF as in RFC 4180.
 std::vector<std::map<std::string, std::string>> parse_csv(const std::string& text);
 

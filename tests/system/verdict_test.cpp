@@ -13,10 +13,6 @@ namespace {
 
 using experiments::parse_json;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class Verdicts : public testing::Test {
  protected:
   Verdicts() {
