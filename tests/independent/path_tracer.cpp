@@ -16,6 +16,7 @@ namespace qtrace::independent {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
+constexpr int kLattice = 17;  // rays each way in which a pixel is searched for a light's edge
 
 struct Random {
   std::mt19937_64 bits;
@@ -46,6 +47,15 @@ class Tracer {
       sums_.push_back(sum += power);
     }
     epsilon_ = 1e-9 * glm::length(hi - lo);
+  }
+
+  bool sees_edge_of_light(int x, int y) const {
+    const glm::dvec3 corner = seen(camera_ray(x, y));
+    for (int k = 1; k < kLattice * kLattice; ++k) {
+      const double dx = k % kLattice, dy = k / kLattice;
+      if (seen(camera_ray(x + dx / (kLattice - 1), y + dy / (kLattice - 1))) != corner) return true;
+    }
+    return false;
   }
 
   glm::dvec3 sample(int x, int y, Random& random) const {
@@ -90,6 +100,13 @@ class Tracer {
                                      hit.u * glm::dvec3(t.normal[1]) + hit.v * glm::dvec3(t.normal[2]));
     if (!(glm::dot(p.normal, p.eye) > 0)) p.normal = p.face;  // it faces away from the ray, or is none
     return p;
+  }
+
+  glm::dvec3 seen(const Ray& ray) const {
+    const Hit hit = bvh_.closest(ray, epsilon_);
+    if (!hit) return glm::dvec3(0);
+    const Point p = point(ray, hit);
+    return emitted(*p.material, p.from_front);
   }
 
   static glm::dvec3 emitted(const Material& material, bool front) {
@@ -185,6 +202,15 @@ Image trace(const Scene& scene, const Options& options) {
   }
   workers.clear();  // joins
   return image;
+}
+
+std::vector<char> edges_of_lights(const Scene& scene, const Options& options) {
+  const Tracer tracer(scene, options);
+  std::vector<char> edges;
+  for (int y = 0; y < options.height; ++y) {
+    for (int x = 0; x < options.width; ++x) edges.push_back(tracer.sees_edge_of_light(x, y) ? 1 : 0);
+  }
+  return edges;
 }
 
 }  // namespace qtrace::independent

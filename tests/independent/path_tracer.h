@@ -31,4 +31,8 @@ struct Image {
 
 Image trace(const Scene& scene, const Options& options);
 
+// Whether the camera sees different emission in parts of a pixel (1, row by row from the top; else 0), by a
+// lattice of rays.
+std::vector<char> edges_of_lights(const Scene& scene, const Options& options);
+
 }  // namespace qtrace::independent
