@@ -13,8 +13,10 @@ uvec2 pixel_of_invocation() {
   uvec2 in_block = uvec2(lane & 3u, (lane >> 2u) & 1u);
   uvec2 block = uvec2((lane >> 3u) & 1u, lane >> 4u);
   uvec2 group = gl_WorkGroupID.xy;
-#ifdef GROUPS_BACKWARDS  // tests: the order of work groups must not matter
-  group = gl_NumWorkGroups.xy - 1u - group;
+#ifdef GROUP_STRIDE  // tests: the order of work groups must not matter; prime to their number
+  uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+  uint shuffled = (group.y * gl_NumWorkGroups.x + group.x) * uint(GROUP_STRIDE) % groups;
+  group = uvec2(shuffled % gl_NumWorkGroups.x, shuffled / gl_NumWorkGroups.x);
 #endif
   return group * 8u + block * uvec2(4u, 2u) + in_block;
 }

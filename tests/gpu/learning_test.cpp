@@ -94,26 +94,63 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
   EXPECT_TRUE(is_cut(SiteSearch::tree, "10000"));
 }
 
-// The second time with its work groups in the opposite order.
-TEST_F(Learning, SeveralFramesOfOneSeedGiveTheSameBits) {
-  const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb");
+struct Bits {
+  RadianceImage image;
+  std::vector<float> values;
+  std::vector<std::uint32_t> visits;
+  std::uint64_t saturated = 0;
+};
+
+class GroupOrder : public testing::TestWithParam<UpdateRule> {};
+
+Bits rendered(const Scene& scene, UpdateRule rule, const gpu::Defines& order) {
   RenderSettings settings;
-  settings.width = settings.height = 64;
+  settings.width = settings.height = 64;  // 64 work groups
   settings.rl.sites_per_object = 20;
-  std::vector<RadianceImage> images;
-  std::vector<std::vector<float>> tables;
-  for (const gpu::Defines& order : {gpu::Defines{}, gpu::Defines{{"GROUPS_BACKWARDS", "1"}}}) {
-    Tracer tracer(device(), scene, settings, order);
-    images.push_back(render(tracer, 8).image);
-    tables.push_back(tracer.table()->values());
-  }
-  EXPECT_EQ(
-      std::memcmp(images[0].mean.data(), images[1].mean.data(), images[0].pixels() * sizeof(glm::dvec3)), 0);
-  EXPECT_EQ(std::memcmp(images[0].variance.data(), images[1].variance.data(),
-                        images[0].pixels() * sizeof(glm::dvec3)),
-            0);
-  EXPECT_EQ(tables[0], tables[1]);
+  settings.rl.update = rule;
+  settings.nee = Nee::one_ray;
+  settings.lights = LightChoice::learned;
+  Tracer tracer(device(), scene, settings, order);
+  Bits bits{render(tracer, 8).image, tracer.table()->values(), tracer.table()->visits()};
+  bits.saturated = tracer.last_frame_statistics().saturated_updates;
+  return bits;
 }
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expect_the_same_in_any_order(const Scene& scene, UpdateRule rule, bool saturates) {
+  const Bits plain = rendered(scene, rule, {});
+  EXPECT_EQ(plain.saturated > 0, saturates);
+  for (const char* stride : {"63", "29"}) {  // backwards, and far from their neighbours
+    const Bits shuffled = rendered(scene, rule, {{"GROUP_STRIDE", stride}});
+    EXPECT_TRUE(same_bytes(plain.image.mean, shuffled.image.mean)) << stride;
+    EXPECT_TRUE(same_bytes(plain.image.variance, shuffled.image.variance)) << stride;
+    EXPECT_TRUE(same_bytes(plain.values, shuffled.values)) << stride;
+    EXPECT_TRUE(same_bytes(plain.visits, shuffled.visits)) << stride;
+    EXPECT_EQ(plain.saturated, shuffled.saturated) << stride;
+  }
+}
+
+TEST_P(GroupOrder, LeavesNoTrace) {
+  expect_the_same_in_any_order(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb"), GetParam(),
+                               false);
+}
+
+// Of a light so bright that sums and single targets reach the end of their range.
+TEST_P(GroupOrder, LeavesNoTraceInSaturatedSums) {
+  Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb");
+  for (Material& material : scene.materials) material.emission *= 1e13F;
+  expect_the_same_in_any_order(scene, GetParam(), GetParam() != UpdateRule::paper_listing);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, GroupOrder,
+                         testing::Values(UpdateRule::expected_sarsa, UpdateRule::sarsa,
+                                         UpdateRule::q_learning, UpdateRule::monte_carlo,
+                                         UpdateRule::paper_listing),
+                         [](const auto& rule) { return std::string(enum_name(rule.param)); });
 
 }  // namespace
 }  // namespace qtrace::test

@@ -23,6 +23,7 @@ from mutations import MUTATIONS, Mutation
 ROOT = Path(__file__).resolve().parents[2]
 SUITES = ["gpu", "independent", "render"]  # the quickest first
 TIMEOUT = 600  # seconds for a suite: an endless loop is noticed as well
+NOT_A_PROGRAM = re.compile(r"does not (?:compile|link)[^\n]*(?:\n[^\n]+){0,3}")  # as engine/gpu/program.cpp says it
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,10 @@ class Outcome:
     mutation: Mutation
     caught_by: str  # empty: survived
     seconds: float
+
+
+class NotAProgram(Exception):
+    """The shader that the error stands in does not compile, which would be noticed without any test."""
 
 
 def copy_tree(target: Path) -> None:
@@ -54,6 +59,8 @@ def first_failure(tree: Path) -> str:
         except subprocess.TimeoutExpired:
             return f"{suite}: did not end in {TIMEOUT} s"
         if done.returncode != 0:
+            if broken := NOT_A_PROGRAM.search(done.stdout + done.stderr):
+                raise NotAProgram(broken[0])
             named = re.search(r"\[  FAILED  \] (\S+?)(,| \(|$)", done.stdout, re.MULTILINE)
             return f"{suite}: {named[1]}" if named else f"{suite}: ended with {done.returncode}"
     return ""
@@ -68,7 +75,11 @@ def try_one(tree: Path, mutation: Mutation) -> Outcome:
     start = time.monotonic()
     file.write_text(text.replace(mutation.find, mutation.replace))
     try:
-        caught = first_failure(tree) if build(tree) else "does not build"
+        if not build(tree):
+            sys.exit(f"the tree does not build with the error '{mutation.name}'")
+        caught = first_failure(tree)
+    except NotAProgram as error:
+        sys.exit(f"{mutation.file}: with the error '{mutation.name}' it is no program, which proves nothing: {error}")
     finally:
         file.write_text(text)
     return Outcome(mutation, caught, time.monotonic() - start)
