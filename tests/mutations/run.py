@@ -3,24 +3,23 @@
 
     ./dev mutations [--only WORD] [--out FILE.md]
 
-Prints a line for each and writes a table. Exit code 1 if an error survives, or if its text is not found exactly once.
+Prints a line for each and writes a table. Exit code 1 if an error survives; it stops where an error's text is not found
+exactly once, or where the shader with it is no program.
 """
 
 from __future__ import annotations
 
 import argparse
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from mutations import MUTATIONS, Mutation
+from tree import ROOT, Edit, Tree, commit, copied
 
-ROOT = Path(__file__).resolve().parents[2]
 SUITES = ["gpu", "independent", "render"]  # the quickest first
 TIMEOUT = 600  # seconds for a suite: an endless loop is noticed as well
 NOT_A_PROGRAM = re.compile(r"does not (?:compile|link)[^\n]*(?:\n[^\n]+){0,3}")  # as engine/gpu/program.cpp says it
@@ -37,25 +36,12 @@ class NotAProgram(Exception):
     """The shader that the error stands in does not compile, which would be noticed without any test."""
 
 
-def copy_tree(target: Path) -> None:
-    files = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    for name in filter(None, files):
-        (target / name).parent.mkdir(parents=True, exist_ok=True)
-        if (ROOT / name).is_file():
-            shutil.copyfile(ROOT / name, target / name)
-
-
-def build(tree: Path) -> bool:
-    targets = [f"qtrace_{suite}_tests" for suite in SUITES]
-    return subprocess.run(["ninja", "-C", "build/release", *targets], cwd=tree, capture_output=True).returncode == 0
-
-
-def first_failure(tree: Path) -> str:
+def first_failure(tree: Tree) -> str:
     """The name of a test that fails, empty if none does."""
     for suite in SUITES:
-        command = [f"build/release/tests/qtrace_{suite}_tests", "--gtest_fail_fast", "--gtest_brief=1"]
         try:
-            done = subprocess.run(command, cwd=tree, capture_output=True, text=True, timeout=TIMEOUT, errors="replace")
+            done = tree.run(f"build/release/tests/qtrace_{suite}_tests", "--gtest_fail_fast", "--gtest_brief=1",
+                            timeout=TIMEOUT)
         except subprocess.TimeoutExpired:
             return f"{suite}: did not end in {TIMEOUT} s"
         if done.returncode != 0:
@@ -66,29 +52,19 @@ def first_failure(tree: Path) -> str:
     return ""
 
 
-def try_one(tree: Path, mutation: Mutation) -> Outcome:
-    file = tree / "shaders" / mutation.file
-    text = file.read_text()
-    if text.count(mutation.find) != 1:
-        sys.exit(f"{mutation.file}: '{mutation.find}' stands there {text.count(mutation.find)} times, not once; "
-                 f"mend the error '{mutation.name}' in {Path(__file__).with_name('mutations.py')}")
+def try_one(tree: Tree, mutation: Mutation) -> Outcome:
     start = time.monotonic()
-    file.write_text(text.replace(mutation.find, mutation.replace))
-    try:
-        if not build(tree):
-            sys.exit(f"the tree does not build with the error '{mutation.name}'")
-        caught = first_failure(tree)
-    except NotAProgram as error:
-        sys.exit(f"{mutation.file}: with the error '{mutation.name}' it is no program, which proves nothing: {error}")
-    finally:
-        file.write_text(text)
+    with tree.edited(mutation.name, Edit(f"shaders/{mutation.file}", mutation.find, mutation.replace)):
+        try:
+            caught = first_failure(tree)
+        except NotAProgram as error:
+            sys.exit(f"{mutation.file}: with '{mutation.name}' it is no program, which proves nothing: {error}")
     return Outcome(mutation, caught, time.monotonic() - start)
 
 
 def table(outcomes: list[Outcome]) -> str:
-    commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
     lines = ["# Deliberate errors in shaders", "",
-             f"Of {len(outcomes)}, applied one at a time to commit {commit.strip()}, "
+             f"Of {len(outcomes)}, applied one at a time to commit {commit()}, "
              f"{sum(bool(o.caught_by) for o in outcomes)} were noticed. `./dev mutations` does it again.", "",
              "| error | shader | noticed first by |", "|---|---|---|"]
     lines += [f"| {o.mutation.name} | `{o.mutation.file}` | {o.caught_by or '**nothing**'} |" for o in outcomes]
@@ -104,12 +80,7 @@ def main() -> int:
     if not chosen:
         sys.exit(f"--only {options.only}: no error's name holds that")
     outcomes: list[Outcome] = []
-    with tempfile.TemporaryDirectory(prefix="qtrace-mutations-") as folder:
-        tree = Path(folder)
-        copy_tree(tree)
-        subprocess.run(["cmake", "--preset", "release"], cwd=tree, check=True, capture_output=True)
-        if not build(tree):
-            sys.exit("the tree does not build without any error")
+    with copied(*(f"qtrace_{suite}_tests" for suite in SUITES)) as tree:
         if failure := first_failure(tree):
             sys.exit(f"the tests fail without any error: {failure}")
         for number, mutation in enumerate(chosen, start=1):

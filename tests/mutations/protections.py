@@ -1,0 +1,72 @@
+"""What protects the hard cases of configs/stability.json: each with an edit that takes it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tree import Edit
+
+
+@dataclass(frozen=True)
+class Protection:
+    name: str
+    cases: tuple[str, ...]  # of stability.json; or of the test suite HardCases, where is_test
+    edits: tuple[Edit, ...]
+    is_test: bool = False
+
+
+SURFACE, TRAVERSE, NEE = "shaders/surface.glsl", "shaders/traverse.glsl", "shaders/nee.glsl"
+ORIGIN = "return s.position + s.offset * (side * s.geometric_normal + s.inwards);"
+OFFSET = "s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));"
+INSIDE = "bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessThanEqual(weights, vec3(0.0)));"
+HAS_AREA = ("return twice_area > kMinRelativeHeight * longest && "
+            "twice_area >= std::numeric_limits<float>::min();")
+
+PROTECTIONS = [
+    Protection("edges belong to their triangles", ("white furnace", "camera in geometry"), (Edit(
+        TRAVERSE, INSIDE,
+        "float margin = 1e-4 * abs(weights.x + weights.y + weights.z);\n"
+        "  bool inside = all(greaterThanEqual(weights, vec3(margin))) || all(lessThanEqual(weights, vec3(-margin)));"),)),
+    Protection("rays leave surfaces off them and off their edges", ("white furnace", "camera in geometry", "room"),
+               (Edit(SURFACE, ORIGIN, "return s.position;"),)),
+    Protection("scenes far from the origin are moved there", ("white furnace, moved", "room, moved 10,000"), (Edit(
+        "engine/scene/gltf_origin.cpp", "constexpr double kFar = 64;", "constexpr double kFar = 1e30;"),)),
+    Protection("the power heuristic by a ratio, not by squares", ("grazing light",), (
+        Edit(NEE, "return 1.0 / (1.0 + ratio * ratio);", "return pdf * pdf / (pdf * pdf + other * other);"),
+        Edit(NEE, "  if (contribution == vec3(0.0)) return contribution;\n", ""))),
+    Protection("the end of a shadow ray by its light, not by a constant", ("tiny bright light",), (Edit(
+        "shaders/lights.glsl", "float offset = max(max(light_triangles[index].edge1.w, s.offset), OFFSET_FRACTION * t)",
+        "float offset = 1e-8"),)),
+    Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001", "room, scaled 10,000"),
+               (Edit(SURFACE, OFFSET, "s.offset = 1e-3;"),)),
+    Protection("slivers are triangles", ("slivers",), (Edit(
+        "engine/scene/gltf_triangle.cpp", "constexpr double kMinRelativeHeight = 1e-7;",
+        "constexpr double kMinRelativeHeight = 1e-4;"),)),
+    Protection("triangles without area are dropped, and not met", ("triangles without area",), (
+        Edit("engine/scene/gltf_triangle.cpp", HAS_AREA, "return twice_area >= 0 * kMinRelativeHeight;"),
+        Edit(TRAVERSE, INSIDE, "bool inside = true;"))),
+    Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
+        "engine/scene/gltf.cpp", "  gltf::drop_duplicates(source, scene);\n", ""),)),
+    Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
+        "engine/scene/gltf_triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
+    Protection("GGX by a cross product", ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
+        "shaders/bsdf.glsl", "float k = alpha / (dot(c, c) + a * a);",
+        "float k = alpha / (1.0 - dot(n, h) * dot(n, h) + a * a);"),)),
+    Protection("no light samples without lights", ("no light", "environment alone"), (Edit(
+        "engine/tracer/shader_variant.cpp", "if (features.lights == 0) settings.nee",
+        "if (features.lights == 12345) settings.nee"),)),
+    Protection("a tree of one leaf", ("one triangle",), (Edit(
+        TRAVERSE, "searching = leaf == 0u && node != NO_NODE;", "searching = leaf == 0u && node != NO_NODE && node != 0u;"),)),
+    Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
+               (Edit("shaders/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
+    Protection("visit counters stop at their limit", ("VisitCountersAtTheirLimitDoNotWrap",), (Edit(
+        "shaders/learn.comp",
+        "q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);",
+        "q_visits[entry] = q_visits[entry] + targets;"),), True),
+    Protection("targets are clamped", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",
+                                       "TargetsBeyondTheFixedPointAreCounted"), (Edit(
+        "shaders/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
+    Protection("full sums stay full", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",
+                                       "TargetsBeyondTheFixedPointAreCounted"), (Edit(
+        "shaders/learn.comp", "    high = TARGET_SATURATED;\n", ""),), True),
+]
