@@ -5,7 +5,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -18,8 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".tmp";
 
+// On a shared file system another machine may have a process of this number.
 fs::path temporary_name(const fs::path& target) {
-  return target.parent_path() / fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), kTemporary);
+  std::array<char, HOST_NAME_MAX + 1> host{};
+  ::gethostname(host.data(), HOST_NAME_MAX);
+  return target.parent_path() /
+         fmt::format(".{}.{}.{}{}", target.filename().string(), host.data(), ::getpid(), kTemporary);
 }
 
 // Flushes a file or a folder's list of names to the disk; false with errno where that fails.

@@ -3,7 +3,9 @@
 #include "engine/core/check.h"
 #include "experiments/compare.h"
 #include "experiments/inspect.h"
+#include "experiments/rerun.h"
 #include "experiments/run_command.h"
+#include "experiments/status.h"
 #include "experiments/text_table.h"
 #include "experiments/version.h"
 
@@ -93,6 +95,15 @@ int dispatch(int argc, const char* const* argv) {
   CompareOptions compare_options;
   CLI::App* compare = add_compare_command(app, compare_options);
   CLI::App* devices = app.add_subcommand("devices", "List what this machine can compute on");
+  RerunOptions rerun_options;
+  CLI::App* again = app.add_subcommand("rerun", "Does a run again from its manifest; do the bits agree?");
+  again->add_option("MANIFEST", rerun_options.manifest, "results/<experiment>/<run>/manifest.json")
+      ->required();
+  again->add_option("--out", rerun_options.out, "keeps the new files in this folder");
+  again->add_option("--device", rerun_options.device, "index or part of a name, see `qtrace devices`");
+  std::string status_folder = "results";
+  CLI::App* status = app.add_subcommand("status", "How far the experiments in a folder are");
+  status->add_option("RESULTS", status_folder, "results, or results/<experiment>")->capture_default_str();
   CLI::App* keys = app.add_subcommand("keys", "List the keys of experiment files");
   try {
     app.parse(argc, argv);
@@ -108,6 +119,16 @@ int dispatch(int argc, const char* const* argv) {
     fmt::print("{}", inspect_run(inspect_options, progress));
     return 0;
   }
+  if (again->parsed()) {
+    Progress progress(Progress::detect(false));
+    const RerunResult result = rerun(rerun_options, progress);
+    fmt::print("{}", result.text);
+    return result.agrees ? 0 : 1;
+  }
+  if (status->parsed()) {
+    fmt::print("{}", status_text(status_folder));
+    return 0;
+  }
   if (devices->parsed()) return command_devices();
   if (keys->parsed()) return command_keys();
   return run_command(options);
@@ -118,6 +139,9 @@ int dispatch(int argc, const char* const* argv) {
 int run_command_line(int argc, const char* const* argv) {
   try {
     return dispatch(argc, argv);
+  } catch (const Stopped& stopped) {
+    fmt::print(stderr, "{}\n", stopped.why);
+    return stopped.exit_code;
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 1;

@@ -33,7 +33,7 @@ std::string result_line(const std::string& label, const RunRecord& record) {
 class Work {
  public:
   Work(const Experiment& experiment, gpu::Context& context, SceneStore& scenes, const RunChoices& choices,
-       const Stopper& stopper, const std::function<void()>& give_up, Progress& progress)
+       const Stopper& stopper, const GiveUp& give_up, Progress& progress)
       : experiment_(experiment),
         context_(context),
         scenes_(scenes),
@@ -48,7 +48,12 @@ class Work {
         references_(context, choices.root, stopper, progress),
         journal_(experiment, scenes, context.device(), references_, folder_.path()) {}
 
+  ~Work() { progress_.forget(); }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+
   bool run() {
+    progress_.keep_in(folder_.path(), choices_.shard.is_whole() ? "" : choices_.shard.text());
     adopt_earlier();
     if (!choices_.merge) {
       plan();
@@ -217,7 +222,7 @@ class Work {
   SceneStore& scenes_;
   const RunChoices& choices_;
   const Stopper& stopper_;
-  const std::function<void()>& give_up_;
+  const GiveUp& give_up_;
   Progress& progress_;
   ResultsFolder folder_;
   std::vector<Turn> turns_;
@@ -262,7 +267,7 @@ void check_device(const Experiment& experiment, const gpu::Context& context, Sce
 }
 
 bool run_experiment(const Experiment& experiment, gpu::Context& context, SceneStore& scenes,
-                    const RunChoices& choices, const Stopper& stopper, const std::function<void()>& give_up,
+                    const RunChoices& choices, const Stopper& stopper, const GiveUp& give_up,
                     Progress& progress) {
   return Work(experiment, context, scenes, choices, stopper, give_up, progress).run();
 }

@@ -5,6 +5,7 @@
 #include "experiments/experiment_config.h"
 #include "experiments/progress.h"
 #include "experiments/results_folder.h"
+#include "experiments/run.h"
 #include "experiments/scene_store.h"
 #include "experiments/stopper.h"
 
@@ -41,7 +42,7 @@ void check_device(const Experiment& experiment, const gpu::Context& context, Sce
 // none failed what was expected of it. `give_up`: see RunJob. Throws Error before anything is done, and
 // Stopped.
 bool run_experiment(const Experiment& experiment, gpu::Context& context, SceneStore& scenes,
-                    const RunChoices& choices, const Stopper& stopper, const std::function<void()>& give_up,
+                    const RunChoices& choices, const Stopper& stopper, const GiveUp& give_up,
                     Progress& progress);
 
 }  // namespace qtrace::experiments

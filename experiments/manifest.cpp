@@ -24,8 +24,13 @@ Json device_json(const gpu::DeviceInfo& device) {
           {"software", device.software}};
 }
 
-Json scene_json(const LoadedScene& scene) {
+Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
   return {{"file", scene.file.string()},
+          {"from_here", fs::absolute(scene.file)
+                            .lexically_normal()
+                            .lexically_relative(fs::absolute(folder).lexically_normal())
+                            .string()},
           {"hash", scene.hash},
           {"triangles", scene.scene.triangles.size()},
           {"objects", scene.scene.objects.size()},

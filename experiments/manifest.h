@@ -14,7 +14,8 @@ std::string utc_now();  // ISO 8601, seconds
 
 Json program_json();  // version and commit
 Json device_json(const gpu::DeviceInfo& device);
-Json scene_json(const LoadedScene& scene);
+// `folder`: of the manifest, from which the scene's file is found again when both are moved together.
+Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder);
 Json metrics_json();        // name, formula and source of each metric
 std::string timing_note();  // one sentence: what the times hold and what they leave out
 

@@ -1,5 +1,7 @@
 #include "experiments/progress.h"
 
+#include "experiments/atomic_file.h"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLiveInterval{100};
 constexpr std::chrono::seconds kLineInterval{10};
+constexpr std::chrono::seconds kReportInterval{1};
 constexpr const char* kClearLine = "\r\x1b[K";
 
 std::size_t terminal_columns() {
@@ -37,6 +40,7 @@ Progress::Mode Progress::detect(bool quiet) {
 void Progress::begin(const std::string& label, int frames, double work_per_frame, int first) {
   end();
   active_ = true;
+  relmse_.reset();
   label_ = label;
   frames_ = frames;
   frame_ = first;
@@ -53,16 +57,22 @@ void Progress::expect(int frames) {
 
 void Progress::step(int frame, std::optional<double> relmse) {
   frame_ = frame;
+  if (relmse) relmse_ = relmse;
   const auto now = Clock::now();
-  const bool live = mode_ == Mode::live;
-  if (now - last_shown_ < (live ? Clock::duration(kLiveInterval) : Clock::duration(kLineInterval))) return;
+  const bool is_live = mode_ == Mode::live;
+  const bool shows =
+      now - last_shown_ >= (is_live ? Clock::duration(kLiveInterval) : Clock::duration(kLineInterval));
+  const bool reports = !report_file_.empty() && now - reported_ >= kReportInterval;
+  if (!shows && !reports) return;
+  const double stage_left = seconds_left((frames_ - frame_) * work_per_frame_);
+  const double all_left = seconds_left(planned_ - done_ - (frame_ - first_) * work_per_frame_);
+  if (reports) report({label_, frame_, frames_, relmse_.value_or(-1), stage_left, all_left});
+  if (!shows) return;
   last_shown_ = now;
-  const double stage_left = (frames_ - frame_) * work_per_frame_;
-  const double all_left = planned_ - done_ - (frame_ - first_) * work_per_frame_;
   show(fmt::format("{}: frame {}/{}{}, {} left of this, {} of all", label_, frame_, frames_,
-                   relmse ? fmt::format(", relMSE {:.3g}", *relmse) : "",
-                   duration_text(seconds_left(stage_left)), duration_text(seconds_left(all_left))),
-       live);
+                   relmse_ ? fmt::format(", relMSE {:.3g}", *relmse_) : "", duration_text(stage_left),
+                   duration_text(all_left)),
+       is_live);
 }
 
 void Progress::end() {
@@ -76,11 +86,40 @@ void Progress::end() {
   first_ = 0;
 }
 
-void Progress::note(const std::string& line) { show(line, false); }
+void Progress::note(const std::string& line) {
+  if (log_) log_->line(line);
+  show(line, false);
+}
 
 void Progress::warning(const std::string& line) {
+  if (log_) log_->line("warning: " + line);
   if (mode_ == Mode::live) std::fputs(kClearLine, stderr);
   fmt::print(stderr, "warning: {}\n", line);
+}
+
+void Progress::keep_in(const std::filesystem::path& folder, const std::string& part) {
+  const std::string suffix = part.empty() ? "" : "-" + part;
+  log_ = std::make_unique<LogFile>(folder / fmt::format("log{}.txt", suffix));
+  report_file_ = folder / fmt::format("{}{}.json", kReportName, suffix);
+}
+
+void Progress::forget() {
+  std::error_code ignored;
+  if (!report_file_.empty()) std::filesystem::remove(report_file_, ignored);
+  report_file_.clear();
+  log_.reset();
+}
+
+// Whole or not at all, but not flushed to the disk: it is of no use after a crash. Nothing depends on it.
+void Progress::report(const ProgressReport& report) {
+  reported_ = Clock::now();
+  try {
+    AtomicFile file(report_file_);
+    write_bytes(file.temporary(), to_json(report).dump());
+    file.rename();
+  } catch (const Error&) {
+    report_file_.clear();
+  }
 }
 
 double Progress::seconds_left(double work) const {

@@ -1,7 +1,11 @@
 // Where a long job stands: on a terminal one line that updates itself, elsewhere plain lines.
 #pragma once
 
+#include "experiments/log_file.h"
+#include "experiments/status.h"
+
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -33,11 +37,17 @@ class Progress {
   void note(const std::string& line);     // a line that stays, unless quiet
   void warning(const std::string& line);  // a line that stays, also if quiet
 
+  // From now on, until forget(), notes and warnings are kept in `folder` as well (log.txt), and where the
+  // work stands is told there to `qtrace status`. `part`: of a shard, its name; else empty.
+  void keep_in(const std::filesystem::path& folder, const std::string& part);
+  void forget();
+
  private:
   using Clock = std::chrono::steady_clock;
 
   double seconds_left(double work) const;
   void show(const std::string& line, bool live);
+  void report(const ProgressReport& report);
 
   Mode mode_;
   double planned_ = 0;
@@ -51,6 +61,10 @@ class Progress {
   int frame_ = 0;
   int first_ = 0;
   double work_per_frame_ = 0;
+  std::optional<double> relmse_;  // last known of the stage
+  std::unique_ptr<LogFile> log_;
+  std::filesystem::path report_file_;  // empty: none
+  Clock::time_point reported_;
 };
 
 }  // namespace qtrace::experiments

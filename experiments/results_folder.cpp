@@ -122,6 +122,7 @@ fs::path lock_file(const fs::path& folder) { return folder / ".lock"; }
 ResultsFolder::ResultsFolder(const Experiment& experiment, const Json& identity, const fs::path& root,
                              const Shard& shard, bool fresh, Progress& progress)
     : path_(root / experiment.name) {
+  make_folder(root);
   make_folder(path_);
   lock(shard);
   const bool has_results = fs::exists(path_ / "manifest.json");

@@ -149,10 +149,11 @@ class Execution {
   void guard_frame(int frame) {
     if (job_.watchdog == nullptr) return;
     job_.watchdog->arm(config().frame_timeout_s, [this, frame] {
-      close("failed", fmt::format("frame {} took longer than frame_timeout_s, {:g} s", frame,
-                                  config().frame_timeout_s));
+      const std::string why =
+          fmt::format("frame {} took longer than frame_timeout_s, {:g} s", frame, config().frame_timeout_s);
+      close("failed", why);
       job_.files.flush();
-      job_.give_up();
+      job_.give_up(fmt::format("{}: failed: {}", job_.label, why));
     });
   }
 

@@ -20,6 +20,8 @@ namespace qtrace::experiments {
 std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata,
                                          FileQueue& files);
 
+using GiveUp = std::function<void(const std::string& why)>;
+
 struct RunJob {
   const gpu::Context& context;
   const Experiment& experiment;
@@ -35,7 +37,7 @@ struct RunJob {
   Watchdog* watchdog = nullptr;      // null: frames may take any time
   // Called on the watchdog's thread when a frame has taken too long and the run's files say so; shall not
   // return.
-  std::function<void()> give_up = {};
+  GiveUp give_up = {};
   std::function<std::unique_ptr<RunFiles>(const std::filesystem::path&, const ExrMetadata&, FileQueue&)>
       make_files = make_run_files;
 };

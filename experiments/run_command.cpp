@@ -99,7 +99,8 @@ int run_all(const RunOptions& options, const std::vector<Experiment>& experiment
   for (const Experiment& experiment : experiments) check_device(experiment, context, scenes);
   Stopper stopper;
   if (options.time_budget > 0) stopper.set_budget(options.time_budget);
-  const auto give_up = [&] {
+  const auto give_up = [&](const std::string& why) {
+    progress.warning(why + "; the program starts itself anew, as the driver may hang");
     if (options.choices.fail_fast) ::_exit(1);
     start_again(options, stopper.seconds_left());
   };

@@ -5,8 +5,8 @@
 
 namespace qtrace::test {
 
-inline const gpu::Context& device() {
-  static const gpu::Context context;
+inline gpu::Context& device() {
+  static gpu::Context context;
   return context;
 }
 

@@ -31,7 +31,9 @@ class ReferenceProgram : public testing::Test {
   }
 
   Outcome run(const std::string& out, const std::vector<std::string>& sets) const {
-    const Outcome outcome = run_qtrace(arguments(out, sets), folder_.path());
+    std::vector<std::string> words = arguments(out, sets);
+    words.emplace_back("--fresh");  // the references stay
+    const Outcome outcome = run_qtrace(words, folder_.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome;
   }

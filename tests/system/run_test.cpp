@@ -182,23 +182,23 @@ TEST_F(RunProgram, FirefliesAndClampingAreFiguresOfARun) {
 }
 
 TEST_F(RunProgram, ReferencesAreFoundAgainAndBrokenOnesRenderedAnew) {
-  ASSERT_TRUE(contains(run("ref", "").err, "reference of scene: 8 frames rendered"));
+  ASSERT_TRUE(contains(run("ref", "", {"--fresh"}).err, "reference of scene: 8 frames rendered"));
   std::string name;
   for (const std::string& file : tree(folder_ / "results/references")) {
     if (file.ends_with(".exr")) name = file;
   }
   const std::string file = "results/references/" + name;
   const std::string whole = folder_.read(file);
-  EXPECT_FALSE(contains(run("ref", "").err, "rendered"));
+  EXPECT_FALSE(contains(run("ref", "", {"--fresh"}).err, "rendered"));
   folder_.write(file, whole.substr(0, whole.size() / 2));
-  const Outcome outcome = run("ref", "");
+  const Outcome outcome = run("ref", "", {"--fresh"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(contains(outcome.err, "warning: this reference cannot be used and is rendered anew: " + file));
   EXPECT_EQ(folder_.read(file), whole);
   // Shipped beside the config: nothing is rendered into the results.
   folder_.write("references/" + name, whole);
   std::filesystem::remove_all(folder_ / "results");
-  EXPECT_EQ(run("ref", "").exit_code, 0);
+  EXPECT_EQ(run("ref", "", {"--fresh"}).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "results/references"));
   EXPECT_EQ(json("results/ref/run/manifest.json").at("reference").at("origin"), "shipped");
 }

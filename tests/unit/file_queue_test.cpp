@@ -1,0 +1,73 @@
+#include "experiments/file_queue.h"
+
+#include "experiments/atomic_file.h"
+#include "tests/system/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace qtrace::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FileQueue, WritesAllInTheirOrder) {
+  const tests::TempFolder folder;
+  FileQueue files;
+  for (int i = 0; i < 100; ++i) files.put(folder / ("f" + std::to_string(i % 10)), std::to_string(i));
+  files.put(folder / "gone", "x");
+  files.remove(folder / "gone");
+  files.remove(folder / "again");
+  files.put(folder / "again", "y");
+  files.flush();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(folder.read("f" + std::to_string(i)), std::to_string(90 + i));
+  EXPECT_FALSE(fs::exists(folder / "gone"));
+  EXPECT_EQ(folder.read("again"), "y");
+}
+
+TEST(FileQueue, DoesNotWaitForTheDisk) {
+  const tests::TempFolder folder;
+  FileQueue files;
+  std::atomic<bool> may_write = false;
+  files.put(folder / "slow", 1, [&](const fs::path& temporary) {
+    while (!may_write) std::this_thread::yield();
+    write_bytes(temporary, "slow");
+  });
+  files.put(folder / "next", "next");  // returns at once
+  EXPECT_FALSE(fs::exists(folder / "slow"));
+  EXPECT_FALSE(fs::exists(folder / "next"));  // never before what was put first
+  may_write = true;
+  files.flush();
+  EXPECT_EQ(folder.read("next"), "next");
+}
+
+// A manifest that says "finished" must not follow an image that was lost.
+TEST(FileQueue, NothingFollowsALostFile) {
+  const tests::TempFolder folder;
+  FileQueue files;
+  files.put(folder / "missing/a", "a");
+  try {
+    for (int i = 0; i < 1000; ++i) {
+      files.put(folder / ("b" + std::to_string(i)), "b");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing/a: cannot be written"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(files.flush(), Error);
+  files.put(folder / "c", "c");  // said once, it works again
+  files.flush();
+  EXPECT_EQ(folder.read("c"), "c");
+}
+
+TEST(FileQueue, TheDestructorWritesTheRest) {
+  const tests::TempFolder folder;
+  { FileQueue().put(folder / "last", "last"); }
+  EXPECT_EQ(folder.read("last"), "last");
+}
+
+}  // namespace
+}  // namespace qtrace::experiments
