@@ -5,6 +5,7 @@
 #include "experiments/experiment.h"
 #include "experiments/inspect.h"
 #include "experiments/manifest.h"
+#include "experiments/slurm.h"
 #include "experiments/text_table.h"
 #include "experiments/version.h"
 
@@ -97,6 +98,36 @@ void add_run_command(CLI::App& app, RunOptions& options) {
   run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
 }
 
+CLI::App* add_submit_command(CLI::App& app, SubmitOptions& options) {
+  CLI::App* submit = app.add_subcommand(
+      "submit", "Submit experiments to a cluster: references, then the runs in shards, then their merge");
+  submit->add_option("CONFIG", options.configs, "experiment file (JSON)")->required();
+  submit->add_flag("--slurm")->required()->description("the cluster's scheduler; the only one so far");
+  submit->add_option("--shards", options.shards, "parts that can run at the same time: tasks of a job array")
+      ->required();
+  submit->add_option("--set", options.sets, "key=value, as in `qtrace run`")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  submit->add_option("--out", options.out, "folder of the results, which all nodes see")
+      ->capture_default_str();
+  submit->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  submit->add_option("--cpus", options.cpus, "of each job; also the threads of the software driver")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  submit->add_option("--time", options.time, "of each job, as sbatch wants it; out of it, a job continues");
+  submit->add_option("--partition", options.partition, "of all jobs");
+  submit
+      ->add_option("--sbatch", options.sbatch,
+                   "further options of all jobs: --sbatch='--mem=4G --gres=gpu:1'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  submit->add_flag("--dry-run", options.dry_run,
+                   "check everything, print the scripts, write and submit nothing");
+  return submit;
+}
+
 CLI::App* add_inspect_command(CLI::App& app, InspectOptions& options) {
   constexpr int kMostSamples = 1 << 20;
   CLI::App* inspect =
@@ -144,6 +175,8 @@ int dispatch(int argc, const char* const* argv) {
   app.set_version_flag("--version", software());
   RunOptions options;
   add_run_command(app, options);
+  SubmitOptions submit_options;
+  CLI::App* submitted = add_submit_command(app, submit_options);
   InspectOptions inspect_options;
   CLI::App* inspect = add_inspect_command(app, inspect_options);
   CompareOptions compare_options;
@@ -157,6 +190,10 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (compare->parsed()) {
     fmt::print("{}", compare_files(compare_options));
+    return 0;
+  }
+  if (submitted->parsed()) {
+    fmt::print("{}", submit(submit_options));
     return 0;
   }
   if (inspect->parsed()) {
