@@ -3,9 +3,12 @@
 #include "engine/core/check.h"
 #include "experiments/atomic_file.h"
 #include "experiments/command.h"
+#include "experiments/experiment.h"
+#include "experiments/progress.h"
+#include "experiments/scene_store.h"
 
 #include <algorithm>
-#include <set>
+#include <cctype>
 
 namespace qtrace::experiments {
 namespace {
@@ -18,29 +21,26 @@ struct Plan {
   std::vector<SlurmScript> scripts;
 };
 
-Plan plan_jobs(const std::string& file, const SubmitOptions& options) {
-  Plan plan{load_experiment(file, options.sets), {}, {}};
-  const std::size_t runs = plan.experiment.runs.size();
-  check(options.shards >= 1 && static_cast<std::size_t>(options.shards) <= runs,
-        "--shards is {}, but must be from 1 to {}, the number of runs of {}", options.shards, runs, file);
-  for (const Run& run : plan.experiment.runs) {
-    for (const fs::path& scene : {plan.experiment.scene_file(run), plan.experiment.reference_file(run)}) {
-      check(fs::exists(scene), "{}: run '{}': {}: no such scene", file, run.id, scene.string());
-    }
-  }
-  plan.folder = fs::absolute(fs::path(options.out) / plan.experiment.name / "slurm").lexically_normal();
-  plan.scripts = slurm_scripts(plan.experiment, options, fs::canonical("/proc/self/exe"), plan.folder);
-  return plan;
-}
-
+// Everything is read and checked before the first folder is made or job submitted.
 std::vector<Plan> plan_all(const SubmitOptions& options) {
+  Progress progress(Progress::detect(false));
+  SceneStore scenes;
   std::vector<Plan> plans;
-  std::set<std::string> names;
   for (const std::string& file : options.configs) {
-    plans.push_back(plan_jobs(file, options));
-    const std::string& name = plans.back().experiment.name;
-    check(names.insert(name).second, "two of the configs are called '{}'; their results would share a folder",
-          name);
+    Plan plan{load_experiment(file, options.sets), {}, {}};
+    const Experiment& experiment = plan.experiment;
+    for (const Plan& other : plans) {
+      check(other.experiment.name != experiment.name,
+            "{} and {} are both called '{}'; their results would share a folder",
+            other.experiment.file.string(), file, experiment.name);
+    }
+    const std::size_t runs = experiment.runs.size();
+    check(options.shards >= 1 && static_cast<std::size_t>(options.shards) <= runs,
+          "--shards is {}, but must be from 1 to {}, the number of runs of {}", options.shards, runs, file);
+    load_scenes(experiment, scenes, progress);
+    plan.folder = fs::absolute(fs::path(options.out) / experiment.name / "slurm").lexically_normal();
+    plan.scripts = slurm_scripts(experiment, options, fs::canonical("/proc/self/exe"), plan.folder);
+    plans.push_back(std::move(plan));
   }
   return plans;
 }

@@ -26,12 +26,16 @@ std::string sbatch_word(const std::string& text) {
 // Slurm tells every process of a job to end (TERM) when it is cancelled, preempted or out of time, and puts
 // a preempted one back into the queue itself. Only the warning before the end of its time is USR1, and goes
 // to the script alone: the one case in which the script asks for another turn. So what scancel ends stays
-// ended. `wait` returns at every signal, hence the loop.
-constexpr const char* kWaitForProgram = R"(program=$!
-trap 'out_of_time=1; kill -TERM "$program"' USR1
-trap 'kill -TERM "$program"' TERM
-while kill -0 "$program" 2>/dev/null; do wait "$program"; done
-wait "$program"
+// ended.
+constexpr const char* kTraps = R"(
+trap 'out_of_time=1; kill -TERM "$!"' USR1
+trap 'kill -TERM "$!" 2>/dev/null' TERM
+)";
+
+// `wait` returns at every signal, hence the loop.
+constexpr const char* kWaitForProgram = R"(
+while kill -0 "$!" 2>/dev/null; do wait "$!"; done
+wait "$!"
 code=$?
 if [ -n "${out_of_time:-}" ] && [ "$code" -eq 143 ]; then scontrol requeue "$SLURM_JOB_ID"; fi
 exit "$code"
@@ -61,7 +65,7 @@ class Writer {
     for (const std::string& more : options_.sbatch) line(more);
     // llvmpipe's threads: it would take all processors of the node where Slurm does not confine it.
     text += "\nexport LP_NUM_THREADS=\"${SLURM_CPUS_PER_TASK:-1}\"\n";
-    text += command() + ' ' + part + " &\n" + kWaitForProgram;
+    text += kTraps + command() + ' ' + part + " &" + kWaitForProgram;
     return {stage, text};
   }
 

@@ -135,7 +135,7 @@ class Cluster:
 
     def _configuration(self) -> str:
         controller, node = free_ports(2)
-        # cred_expire: a requeued job waits until its old credential has expired, two minutes by default.
+        # cred_expire: a requeued job waits until its old credential has expired, two minutes unless set.
         # config_overrides: the node has two CPUs, whatever the machine has.
         return f"""
 ClusterName=qtrace_test
@@ -145,7 +145,7 @@ SlurmdPort={node}
 SlurmUser={getpass.getuser()}
 SlurmdUser={getpass.getuser()}
 AuthType=auth/munge
-AuthInfo=socket={self.folder / "munge" / "socket"},cred_expire=2
+AuthInfo=socket={self.folder / "munge" / "socket"},cred_expire=5
 CredType=cred/munge
 SlurmctldPidFile={self.folder / "slurmctld.pid"}
 SlurmdPidFile={self.folder / "slurmd.pid"}
@@ -165,6 +165,9 @@ MailProg=/bin/true
 JobRequeue=1
 KillWait=5
 MinJobAge=600
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
 NodeName={self.host} NodeAddr=127.0.0.1 CPUs=2
-PartitionName=main Nodes={self.host} Default=YES MaxTime=INFINITE State=UP
+PartitionName=main Nodes={self.host} Default=YES MaxTime=INFINITE State=UP PriorityTier=1
+PartitionName=urgent Nodes={self.host} MaxTime=INFINITE State=UP PriorityTier=2
 """
