@@ -28,7 +28,7 @@ constexpr const char* kJob = R"(
 export PATH="$1:$PATH" SLURM_JOB_ID=77 SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=3
 bash "$1/job.sbatch" & job=$!
 if [ -n "$2" ]; then
-  until [ -e "$1/words" ]; do sleep 0.01; done
+  until [ -e "$1/words" ] || ! kill -0 $job; do sleep 0.01; done
   kill -"$2" $job
 fi
 wait $job
