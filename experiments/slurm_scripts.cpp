@@ -23,13 +23,14 @@ std::string sbatch_word(const std::string& text) {
   return word + '"';
 }
 
-// Slurm tells every process of a job to end (TERM) when it is cancelled, preempted or out of time, and puts
-// a preempted one back into the queue itself. Only the warning before the end of its time is USR1, and goes
-// to the script alone: the one case in which the script asks for another turn. So what scancel ends stays
-// ended.
+// Slurm tells every process of a job to end (TERM) when it is cancelled, preempted or out of time, the
+// program as well as the script, and puts a preempted one back into the queue itself. Only the warning before
+// the end of its time is USR1, and goes to the script alone: the one case in which the script asks for
+// another turn. So what scancel ends stays ended. The script must not pass TERM on: a second one ends the
+// program without a checkpoint.
 constexpr const char* kTraps = R"(
 trap 'out_of_time=1; kill -TERM "$!"' USR1
-trap 'kill -TERM "$!" 2>/dev/null' TERM
+trap : TERM
 )";
 
 // `wait` returns at every signal, hence the loop.

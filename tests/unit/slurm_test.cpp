@@ -11,25 +11,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In place of qtrace: keeps its words, and where it is told to wait, does so until it is told to end.
+// In place of qtrace: keeps its words. Where it is told what to end with at TERM it waits for that, and a
+// moment longer for a second one.
 constexpr const char* kProgram = R"~(#!/bin/bash
 here=$(dirname "$0")
 printf '%s\n' "$LP_NUM_THREADS" "$@" > "$here/words.new"
-trap 'exit $(cat "$here/at_term")' TERM
+trap 'echo TERM >> "$here/signals"; left=20' TERM
 mv "$here/words.new" "$here/words"
-if [ -e "$here/at_term" ]; then for i in {1..1000}; do sleep 0.01; done; fi
-exit $(cat "$here/code")
+[ -e "$here/at_term" ] || exit $(cat "$here/code")
+for ((left = 2000; left > 0; --left)); do sleep 0.01; done
+echo end >> "$here/signals"
+exit $(cat "$here/at_term")
 )~";
 
 constexpr const char* kScontrol = "#!/bin/bash\necho \"$*\" >> \"$(dirname \"$0\")/scontrol_words\"\n";
 
-// Runs a script as a job, sends it a signal when the program has started, and tells how the job ended.
+// Runs a script as a job, sends a signal to it ("USR1") or to all its processes ("-TERM") when the program
+// has started, and tells how the job ended.
 constexpr const char* kJob = R"(
 export PATH="$1:$PATH" SLURM_JOB_ID=77 SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=3
+set -m  # a process group of its own
 bash "$1/job.sbatch" & job=$!
 if [ -n "$2" ]; then
   until [ -e "$1/words" ] || ! kill -0 $job; do sleep 0.01; done
-  kill -"$2" $job
+  case $2 in -*) kill "$2" -- -$job ;; *) kill -"$2" $job ;; esac
 fi
 wait $job
 )";
@@ -111,12 +116,14 @@ TEST_F(SlurmScripts, AskForAnotherTurnWhenTheTimeIsUp) {
   EXPECT_EQ(run_job("USR1"), 143);
   ASSERT_TRUE(asked_for_another_turn());
   EXPECT_EQ(folder_.read("scontrol_words"), "requeue 77\n");
+  EXPECT_EQ(folder_.read("signals"), "TERM\nend\n");
 }
 
 TEST_F(SlurmScripts, DoNotReturnWhenTheyAreCancelled) {
   folder_.write("at_term", "143");
-  EXPECT_EQ(run_job("TERM"), 143);
+  EXPECT_EQ(run_job("-TERM"), 143);
   EXPECT_FALSE(asked_for_another_turn());
+  EXPECT_EQ(folder_.read("signals"), "TERM\nend\n");  // a second TERM would end it without a checkpoint
 }
 
 TEST_F(SlurmScripts, NeedNoOtherTurnWhenTheProgramWasJustDone) {
