@@ -16,10 +16,12 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = R"~(#!/bin/bash
 here=$(dirname "$0")
 printf '%s\n' "$LP_NUM_THREADS" "$@" > "$here/words.new"
-trap 'echo TERM >> "$here/signals"; left=20' TERM
+trap 'echo TERM >> "$here/signals"' TERM
 mv "$here/words.new" "$here/words"
 [ -e "$here/at_term" ] || exit $(cat "$here/code")
-for ((left = 2000; left > 0; --left)); do sleep 0.01; done
+pause() { sleep "$1" & wait $!; kill $! 2>/dev/null; }  # a signal ends it, and is handled at once
+pause 20
+for i in {1..20}; do pause 0.01; done
 echo end >> "$here/signals"
 exit $(cat "$here/at_term")
 )~";
