@@ -1,6 +1,6 @@
 """A Slurm cluster of one node with two CPUs: real munged, slurmctld and slurmd, in a folder and on ports of its own.
 
-It needs no configuration of the machine, no systemd and no cgroups, runs as root or as any user, and leaves a Slurm
+Its partition 'urgent' preempts 'main', the default; what is preempted is queued again. It needs no configuration of the machine, no systemd and no cgroups, runs as root or as any user, and leaves a Slurm
 that already runs here alone.
 """
 
@@ -48,7 +48,9 @@ class Cluster:
         self.folder = folder
         self.host = socket.gethostname().split(".")[0]
         self.daemons: list[subprocess.Popen[bytes]] = []
-        self.environment = {**os.environ, "PATH": PATH, "SLURM_CONF": str(folder / "slurm.conf")}
+        # Also inside a job of another cluster.
+        inherited = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH"))}
+        self.environment = {**inherited, "PATH": PATH, "SLURM_CONF": str(folder / "slurm.conf")}
 
     def __enter__(self) -> Cluster:
         try:
