@@ -24,6 +24,8 @@ struct SubmitOptions {
 
 // How long before the end of its time a job is told to write a checkpoint.
 constexpr int kWarningSeconds = 60;
+// Slurm may do so a minute earlier (man sbatch, --signal), and a job needs time to get anywhere.
+constexpr int kLeastSeconds = 300;
 
 struct SlurmScript {
   std::string stage;  // references, shards or merge

@@ -3,6 +3,9 @@
 #include "engine/core/check.h"
 #include "experiments/command.h"
 
+#include <optional>
+#include <regex>
+
 namespace qtrace::experiments {
 namespace {
 
@@ -11,6 +14,27 @@ namespace fs = std::filesystem;
 void check_one_line(std::string_view what, const std::string& text) {
   check(text.find('\n') == std::string::npos, "{} holds a line break, which no line of a script can: '{}'",
         what, text);
+}
+
+// Of Slurm's MIN, MIN:SEC, HOUR:MIN:SEC, DAY-HOUR, DAY-HOUR:MIN and DAY-HOUR:MIN:SEC; nothing for other
+// forms, which sbatch judges.
+std::optional<int> seconds_of(const std::string& time) {
+  static const std::regex form(R"((?:(\d{1,4})-)?(\d{1,6})(?::(\d{1,6}))?(?::(\d{1,6}))?)");
+  std::smatch parts;
+  if (!std::regex_match(time, parts, form)) return std::nullopt;
+  const auto part = [&parts](std::size_t i) { return parts[i].matched ? std::stoi(parts[i]) : 0; };
+  const bool has_hours = parts[1].matched || parts[4].matched;
+  if (!has_hours) return 60 * part(2) + part(3);
+  return 86400 * part(1) + 3600 * part(2) + 60 * part(3) + part(4);
+}
+
+void check_time(const std::string& time) {
+  check_one_line("--time", time);
+  const std::optional<int> seconds = seconds_of(time);
+  check(!seconds || *seconds >= kLeastSeconds,
+        "--time {} is {} s, but must be at least {} s: a job stops {} s before its end, or up to a minute "
+        "earlier, to write a checkpoint; two hours are 2:00:00",
+        time, seconds.value_or(0), kLeastSeconds, kWarningSeconds);
 }
 
 // One word of an #SBATCH line: sbatch knows quotes and backslashes there, but no variables.
@@ -91,7 +115,7 @@ class Writer {
 std::vector<SlurmScript> slurm_scripts(const Experiment& experiment, const SubmitOptions& options,
                                        const fs::path& program, const fs::path& folder) {
   check_one_line("the results' folder", folder.string());
-  check_one_line("--time", options.time);
+  check_time(options.time);
   check_one_line("--partition", options.partition);
   for (const std::string& more : options.sbatch) check_one_line("--sbatch", more);
   const Writer writer(experiment, options, program, folder);

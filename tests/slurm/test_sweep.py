@@ -25,12 +25,13 @@ CONFIG = {"name": "night", "scene": str(ROOT / "configs/scenes/cornell_box.glb")
           "sweep": [{"method": {"NEE": {"sampler": "bsdf", "nee": "one_ray"}, "RL": {"sampler": "rl"}}},
                     {"seed": [1, 2, 3]}]}
 
-IS_TIME = re.compile(r"_(ms|s)(_|$)")  # host_ms_median, elapsed_s, relmse_x_s
+# host_ms_median, elapsed_s, relmse_x_s, ..., and what else follows from clocks.
+OF_TIME = re.compile(r"_(ms|s)(_|$)|^(started|warmup_detected|noisy)$")
 
 
 def rows_without_times(file: Path) -> list[dict[str, str]]:
     with file.open(encoding="utf-8", newline="") as stream:
-        return [{name: value for name, value in row.items() if not IS_TIME.search(name)}
+        return [{name: value for name, value in row.items() if not OF_TIME.search(name)}
                 for row in csv.DictReader(stream)]
 
 

@@ -134,6 +134,19 @@ TEST_F(SlurmScripts, NeedNoOtherTurnWhenTheProgramWasJustDone) {
   EXPECT_FALSE(asked_for_another_turn());
 }
 
+TEST_F(SlurmScripts, RefuseTimesThatAreOverBeforeAnythingIsDone) {
+  for (const char* time : {"4", "2:00", "4:59", "0:04:59", "0-0:4", "0-0", "0-0:4:59"}) {
+    options_.time = time;
+    EXPECT_THROW(scripts(), Error) << time;
+  }
+  // The last two are for sbatch to judge.
+  for (const char* time :
+       {"", "5", "5:00", "0:05:00", "2:00:00", "1-0", "0-1", "0-0:5", "UNLIMITED", "soon"}) {
+    options_.time = time;
+    EXPECT_NO_THROW(scripts()) << time;
+  }
+}
+
 TEST_F(SlurmScripts, RefuseLineBreaksInTheirOptions) {
   options_.partition = "a\n#SBATCH --mem=1";
   EXPECT_THROW(scripts(), Error);
