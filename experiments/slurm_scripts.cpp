@@ -18,11 +18,11 @@ void check_one_line(std::string_view what, const std::string& text) {
 
 // Of Slurm's MIN, MIN:SEC, HOUR:MIN:SEC, DAY-HOUR, DAY-HOUR:MIN and DAY-HOUR:MIN:SEC; nothing for other
 // forms, which sbatch judges.
-std::optional<int> seconds_of(const std::string& time) {
+std::optional<long> seconds_of(const std::string& time) {
   static const std::regex form(R"((?:(\d{1,4})-)?(\d{1,6})(?::(\d{1,6}))?(?::(\d{1,6}))?)");
   std::smatch parts;
   if (!std::regex_match(time, parts, form)) return std::nullopt;
-  const auto part = [&parts](std::size_t i) { return parts[i].matched ? std::stoi(parts[i]) : 0; };
+  const auto part = [&parts](std::size_t i) { return parts[i].matched ? std::stol(parts[i]) : 0L; };
   const bool has_hours = parts[1].matched || parts[4].matched;
   if (!has_hours) return 60 * part(2) + part(3);
   return 86400 * part(1) + 3600 * part(2) + 60 * part(3) + part(4);
@@ -30,11 +30,11 @@ std::optional<int> seconds_of(const std::string& time) {
 
 void check_time(const std::string& time) {
   check_one_line("--time", time);
-  const std::optional<int> seconds = seconds_of(time);
+  const std::optional<long> seconds = seconds_of(time);
   check(!seconds || *seconds >= kLeastSeconds,
         "--time {} is {} s, but must be at least {} s: a job stops {} s before its end, or up to a minute "
         "earlier, to write a checkpoint; two hours are 2:00:00",
-        time, seconds.value_or(0), kLeastSeconds, kWarningSeconds);
+        time, seconds.value_or(0L), kLeastSeconds, kWarningSeconds);
 }
 
 // One word of an #SBATCH line: sbatch knows quotes and backslashes there, but no variables.
