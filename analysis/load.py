@@ -25,6 +25,8 @@ SUMMARY_COLUMNS = ["run", "cell", "scene", "seed", "status", "frames"]
 CONVERGENCE_COLUMNS = ["frame", "spp", "elapsed_s", *METRICS, "reference_mse", "reference_relmse",
                        "at_reference_floor"]
 FRAMES_COLUMNS = ["frame", "is_warmup", "host_ms", "gpu_ms"]
+CELLS_COLUMNS = ["cell", "scene", "seeds"]
+RATIOS_COLUMNS = ["cell", "baseline"]
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,18 @@ class Results:
     def frames(self) -> pd.DataFrame:
         """A row per run and frame; read on first use, as it is by far the largest."""
         return _stack(self.folder, self.finished, "frames.csv", FRAMES_COLUMNS)
+
+    @cached_property
+    def cells(self) -> pd.DataFrame:
+        """A row per cell: mean, standard deviation and 95 % interval over its seeds, as the program has them."""
+        return read_csv(self.folder / "cells.csv", CELLS_COLUMNS)
+
+    @cached_property
+    def ratios(self) -> pd.DataFrame:
+        """A row per cell and figure: how it compares with the config's baseline. LoadError if that names none."""
+        if not (self.folder / "ratios.csv").is_file():
+            raise LoadError(f"{self.folder}: has no ratios.csv: its config names no baseline, see `qtrace keys`")
+        return read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
 
 
 def axis_columns(summary: pd.DataFrame) -> list[str]:

@@ -9,14 +9,17 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 namespace qtrace::experiments {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kTemporary = ".tmp";
+
 fs::path temporary_name(const fs::path& target) {
-  return target.parent_path() / fmt::format(".{}.{}.tmp", target.filename().string(), ::getpid());
+  return target.parent_path() / fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), kTemporary);
 }
 
 // Flushes a file or a folder's list of names to the disk; false with errno where that fails.
@@ -30,7 +33,24 @@ bool flush(const fs::path& path) {
   return flushed;
 }
 
+// A file system counts as full below this: one block is not enough for a file and its entry in the folder.
+constexpr std::uintmax_t kNoRoom = 64 * 1024;
+
+bool has_room(const fs::path& folder) {
+  std::error_code error;
+  const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
+  return error || space.available >= kNoRoom;
+}
+
 }  // namespace
+
+void fail_to_write(const fs::path& target, const std::string& reason) {
+  const std::string text = fmt::format("{}: cannot be written: {}", target.string(), reason);
+  if (has_room(target.parent_path()) && reason != std::strerror(ENOSPC) && reason != std::strerror(EDQUOT)) {
+    throw Error(text);
+  }
+  throw DiskFull(fmt::format("{}: cannot be written: the disk is full", target.string()));
+}
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_(temporary_name(target_)) {}
 
@@ -40,10 +60,10 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
-  check(flush(temporary_), "{}: cannot be written: {}", target_.string(), std::strerror(errno));
+  if (!flush(temporary_)) fail_to_write(target_, std::strerror(errno));
   std::error_code error;
   fs::rename(temporary_, target_, error);
-  check(!error, "{}: cannot be written: {}", target_.string(), error.message());
+  if (error) fail_to_write(target_, error.message());
   temporary_.clear();
   // The rename itself; some file systems cannot flush folders, and the content is safe already.
   flush(target_.parent_path().empty() ? fs::path(".") : target_.parent_path());
@@ -54,7 +74,7 @@ void write_file(const fs::path& target, std::string_view content) {
   std::ofstream stream(file.temporary(), std::ios::binary | std::ios::trunc);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
-  check(stream.good(), "{}: cannot be written: {}", target.string(), std::strerror(errno));
+  if (!stream.good()) fail_to_write(target, std::strerror(errno));
   file.commit();
 }
 
@@ -64,6 +84,18 @@ std::string read_file(const fs::path& file) {
   std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   check(!stream.bad(), "{}: cannot be read to its end", file.string());
   return content;
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && name.starts_with('.') && name.ends_with(kTemporary)) {
+      found.push_back(entry.path());
+    }
+  }
+  std::error_code ignored;
+  for (const fs::path& file : found) fs::remove(file, ignored);
 }
 
 void make_folder(const fs::path& folder) {

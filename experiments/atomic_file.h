@@ -2,10 +2,22 @@
 // the disk and renamed.
 #pragma once
 
+#include "engine/core/check.h"
+
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace qtrace::experiments {
+
+// There is no room left for a file. Nothing that was there before is damaged.
+class DiskFull : public Error {
+ public:
+  using Error::Error;
+};
+
+// Throws DiskFull where the file system of `target` has no room, else Error; both name the target.
+[[noreturn]] void fail_to_write(const std::filesystem::path& target, const std::string& reason);
 
 // For writers that want a path of their own, like OpenEXR. Without commit() the target stays untouched.
 class AtomicFile {
@@ -28,6 +40,10 @@ void write_file(const std::filesystem::path& target, std::string_view content);
 
 // Reads a whole file. Throws Error that names it.
 std::string read_file(const std::filesystem::path& file);
+
+// Removes what killed processes left behind below `folder` of files that they had not finished. No other
+// process may be writing there.
+void remove_unfinished_files(const std::filesystem::path& folder);
 
 // Makes the folder and those above it. Throws Error that names it.
 void make_folder(const std::filesystem::path& folder);

@@ -28,7 +28,10 @@ std::string fraction_text(std::size_t part, std::size_t whole) {
   return part == whole ? std::to_string(whole) : fmt::format("{}/{}", part, whole);
 }
 
-std::string frames_text(const Cell& cell) { return std::to_string(cell.frames); }
+std::string frames_text(const Cell& cell) {
+  return cell.frames == cell.planned_frames ? std::to_string(cell.frames)
+                                            : fmt::format("{} of {}", cell.frames, cell.planned_frames);
+}
 
 std::string seeds_text(const Cell& cell) { return fraction_text(cell.finished, cell.runs); }
 

@@ -35,24 +35,40 @@ std::map<std::string, Estimate> estimate_figures(const Members& runs) {
   return figures;
 }
 
+// The seeds that count.
+Members chosen(const Members& members) {
+  Members finished, furthest;
+  for (const RunRecord* run : members) {
+    if (run->final_errors() == nullptr) continue;
+    if (run->status == "finished") {
+      finished.push_back(run);
+    } else if (furthest.empty() || run->frames.size() >= furthest.front()->frames.size()) {
+      if (!furthest.empty() && run->frames.size() > furthest.front()->frames.size()) furthest.clear();
+      furthest.push_back(run);
+    }
+  }
+  return finished.empty() ? furthest : finished;
+}
+
 Cell make_cell(const Members& members) {
   const RunRecord& first = *members.front();
   Cell cell;
   cell.name = first.run.cell;
   cell.scene = first.scene;
   cell.labels = first.run.labels;
-  cell.frames = first.run.config.frames;
+  cell.planned_frames = first.run.config.frames;
   cell.clamp_radiance = first.run.config.render.clamp_radiance;
   cell.runs = members.size();
-  Members finished;
+  const Members counted = chosen(members);
+  cell.frames = counted.empty() ? cell.planned_frames : static_cast<int>(counted.front()->frames.size());
   std::vector<double> relmse, elapsed, inefficiency, filtered, fireflies, bias;
   for (const RunRecord* run : members) {
     cell.non_finite += run->totals().non_finite;
     cell.clamped_samples += run->totals().clamped_samples;
     if (run->verdict) ++cell.verdicts[run->verdict->word];
+  }
+  for (const RunRecord* run : counted) {
     const ErrorMetrics* errors = run->final_errors();
-    if (errors == nullptr) continue;
-    finished.push_back(run);
     relmse.push_back(errors->relmse);
     elapsed.push_back(run->elapsed_s());
     inefficiency.push_back(*run->relmse_x_seconds());
@@ -61,17 +77,17 @@ Cell make_cell(const Members& members) {
     bias.push_back(run->last_snapshot()->clamp_bias);
     if (errors->at_reference_floor()) ++cell.at_reference_floor;
   }
-  cell.finished = finished.size();
-  cell.host_ms = pooled_times(finished, &RunRecord::host_ms);
-  cell.gpu_ms = pooled_times(finished, &RunRecord::gpu_ms);
+  cell.finished = counted.size();
+  cell.host_ms = pooled_times(counted, &RunRecord::host_ms);
+  cell.gpu_ms = pooled_times(counted, &RunRecord::gpu_ms);
   cell.relmse = estimate(relmse);
   cell.elapsed_s = estimate(elapsed);
   cell.relmse_x_s = estimate(inefficiency);
   cell.relmse_filtered = estimate(filtered);
   cell.fireflies_per_million = estimate(fireflies);
   cell.clamp_bias = signed_estimate(bias);
-  cell.members = finished;
-  cell.figures = estimate_figures(finished);
+  cell.members = counted;
+  cell.figures = estimate_figures(counted);
   return cell;
 }
 

@@ -19,15 +19,17 @@ struct FrameTimes {
   double p90 = 0;
 };
 
-// Estimates are over the finished seeds; empty where none finished.
+// Estimates are over the finished seeds; where none finished, over those partial ones that came furthest;
+// else empty.
 struct Cell {
   std::string name;  // axis labels but the seed, joined by " / "
   std::string scene;
   std::vector<std::string> labels;  // one per axis, of the first run
-  int frames = 0;
-  double clamp_radiance = 0;  // 0: nothing was clamped
+  int frames = 0;                   // of the seeds that count
+  int planned_frames = 0;           // more, where these are partial
+  double clamp_radiance = 0;        // 0: nothing was clamped
   std::size_t runs = 0;
-  std::size_t finished = 0;
+  std::size_t finished = 0;  // those that count
   std::optional<FrameTimes> host_ms;
   std::optional<FrameTimes> gpu_ms;
   std::optional<Estimate> relmse;
@@ -40,8 +42,8 @@ struct Cell {
   std::uint64_t non_finite = 0;
   std::size_t at_reference_floor = 0;           // seeds
   std::map<std::string, std::size_t> verdicts;  // seeds by word; empty where nothing was expected
-  std::vector<const RunRecord*> members;        // finished ones, among the records that the cell is made of
-  std::optional<ErrorParts> parts;              // filled in from the images when all runs are done
+  std::vector<const RunRecord*> members;    // those that count, among the records that the cell is made of
+  std::optional<ErrorParts> parts;          // filled in from the images when all runs are done
   std::map<std::string, Estimate> figures;  // by column of summary.csv; a seed without a value is not in it
 };
 

@@ -2,10 +2,9 @@
 
 #include "engine/core/check.h"
 #include "experiments/compare.h"
-#include "experiments/experiment.h"
 #include "experiments/inspect.h"
-#include "experiments/manifest.h"
-#include "experiments/slurm.h"
+#include "experiments/run_command.h"
+#include "experiments/submit_command.h"
 #include "experiments/text_table.h"
 #include "experiments/version.h"
 
@@ -17,45 +16,6 @@
 
 namespace qtrace::experiments {
 namespace {
-
-struct RunOptions {
-  std::vector<std::string> configs;
-  std::vector<std::string> sets;
-  std::string out = "results";
-  std::string device;
-  bool dry_run = false;
-  bool quiet = false;
-};
-
-// Everything is read and checked before the first folder is made.
-int command_run(const RunOptions& options) {
-  Progress progress(Progress::detect(options.quiet));
-  SceneStore scenes;
-  std::vector<Experiment> experiments;
-  for (const std::string& file : options.configs) {
-    Experiment next = load_experiment(file, options.sets);
-    for (const Experiment& other : experiments) {
-      check(other.name != next.name, "{} and {} are both called '{}'; their results would share a folder",
-            other.file.string(), next.file.string(), next.name);
-    }
-    load_scenes(next, scenes, progress);
-    experiments.push_back(std::move(next));
-  }
-  if (options.dry_run) {
-    for (const Experiment& experiment : experiments) {
-      fmt::print("{}", describe_runs(experiment, scenes, options.out));
-    }
-    return 0;
-  }
-  const gpu::Context context(options.device);
-  progress.note("device: " + device_text(context.device()));
-  for (const Experiment& experiment : experiments) check_device(experiment, context, scenes);
-  bool all_finished = true;
-  for (const Experiment& experiment : experiments) {
-    all_finished = run_experiment(experiment, context, scenes, options.out, progress) && all_finished;
-  }
-  return all_finished ? 0 : 1;
-}
 
 int command_devices() {
   std::vector<std::vector<std::string>> rows;
@@ -80,52 +40,6 @@ int command_keys() {
   }
   fmt::print("{}", plain_table({"key", "type", "default", "unit", "meaning"}, rows));
   return 0;
-}
-
-void add_run_command(CLI::App& app, RunOptions& options) {
-  CLI::App* run = app.add_subcommand("run", "Run all runs of the given experiments");
-  run->add_option("CONFIG", options.configs, "experiment file (JSON); `qtrace keys` lists its keys")
-      ->required();
-  run->add_option("--set", options.sets,
-                  "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
-                  "--set 'sweep.seed=[1,2]'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  run->add_option("--out", options.out, "folder of the results")->capture_default_str();
-  run->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
-  run->add_flag("--dry-run", options.dry_run, "check everything, list the runs, write nothing");
-  run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
-}
-
-CLI::App* add_submit_command(CLI::App& app, SubmitOptions& options) {
-  CLI::App* submit = app.add_subcommand(
-      "submit", "Submit experiments to a cluster: references, then the runs in shards, then their merge");
-  submit->add_option("CONFIG", options.configs, "experiment file (JSON)")->required();
-  submit->add_flag("--slurm")->required()->description("the cluster's scheduler; the only one so far");
-  submit->add_option("--shards", options.shards, "parts that can run at the same time: tasks of a job array")
-      ->required();
-  submit->add_option("--set", options.sets, "key=value, as in `qtrace run`")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  submit->add_option("--out", options.out, "folder of the results, which all nodes see")
-      ->capture_default_str();
-  submit->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
-  submit->add_option("--cpus", options.cpus, "of each job; also the threads of the software driver")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  submit->add_option("--time", options.time, "of each job, as sbatch wants it; out of it, a job continues");
-  submit->add_option("--partition", options.partition, "of all jobs");
-  submit
-      ->add_option("--sbatch", options.sbatch,
-                   "further options of all jobs: --sbatch='--mem=4G --gres=gpu:1'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  submit->add_flag("--dry-run", options.dry_run,
-                   "check everything, print the scripts, write and submit nothing");
-  return submit;
 }
 
 CLI::App* add_inspect_command(CLI::App& app, InspectOptions& options) {
@@ -203,7 +117,7 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (devices->parsed()) return command_devices();
   if (keys->parsed()) return command_keys();
-  return command_run(options);
+  return run_command(options);
 }
 
 }  // namespace

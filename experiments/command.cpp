@@ -52,7 +52,7 @@ bool on_path(std::string_view program) {
   return false;
 }
 
-CommandResult run_command(const std::vector<std::string>& words) {
+CommandResult run_program(const std::vector<std::string>& words) {
   std::vector<std::string> copies = words;
   std::vector<char*> argv;
   for (std::string& word : copies) argv.push_back(word.data());

@@ -17,7 +17,7 @@ struct CommandResult {
 };
 
 // Runs a program of the PATH to its end, without input. Throws Error where it cannot be started.
-CommandResult run_command(const std::vector<std::string>& words);
+CommandResult run_program(const std::vector<std::string>& words);
 
 // The text as one word of a POSIX shell, whatever it holds.
 std::string shell_word(std::string_view text);

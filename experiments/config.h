@@ -6,6 +6,7 @@
 #include "experiments/expectation.h"
 #include "experiments/json_knobs.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -102,6 +103,8 @@ struct RunConfig {
   double firefly_multiple = 100;
   FilterSettings filter;
   Expectation expect;
+  double checkpoint_s = 60;
+  double frame_timeout_s = 600;
 };
 
 template <class Visitor>
@@ -138,7 +141,16 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
         config.filter);
   visit(KnobInfo{"expect", "", "what the run is judged by: a verdict in summary.csv, table and exit code"},
         config.expect);
+  visit(KnobInfo{"checkpoint_s", "s",
+                 "a run's state is kept this often, so that no more than this is lost when it is killed",
+                 0.001, 86400},
+        config.checkpoint_s);
+  visit(KnobInfo{"frame_timeout_s", "s", "a run fails when one of its frames takes longer", 0.001, 86400},
+        config.frame_timeout_s);
 }
+
+// The keys that change neither a pixel nor what is measured: results that differ in them alone are the same.
+inline constexpr std::array<std::string_view, 2> kKeysOfExecution{"checkpoint_s", "frame_timeout_s"};
 
 // Throws Error that names the key where values that are each allowed do not fit together.
 void check_run_config(const RunConfig& config);

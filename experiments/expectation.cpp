@@ -86,8 +86,10 @@ class Judge {
     if (non_finite > 0) verdict_.reason = fmt::format("{} samples were not finite", non_finite);
     verdict_.word = verdict_.reason.empty() ? "pass" : "fail";
     if (whole.mean == 0 && non_finite == 0 && expect_.black == BlackImage::unseen) {
-      verdict_.word = "unseen";
-      verdict_.reason.clear();
+      // There is light to be seen, or the reference has lost it as well.
+      const bool is_lit = mean_of(reference_, areas[0]).mean > 0;
+      verdict_.word = is_lit ? "unseen" : "fail";
+      verdict_.reason = is_lit ? "" : "the reference is black as well, so that nothing shows the light";
     }
     return verdict_;
   }

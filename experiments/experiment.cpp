@@ -2,18 +2,14 @@
 
 #include "engine/core/check.h"
 #include "engine/tracer/limits.h"
-#include "experiments/atomic_file.h"
-#include "experiments/cells.h"
-#include "experiments/manifest.h"
-#include "experiments/ratios.h"
-#include "experiments/reference_store.h"
+#include "experiments/disk_space.h"
+#include "experiments/journal.h"
+#include "experiments/plan.h"
 #include "experiments/run.h"
-#include "experiments/table.h"
-#include "experiments/text_table.h"
+#include "experiments/run_store.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <set>
 
 namespace qtrace::experiments {
@@ -21,157 +17,212 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool met_expectation(const RunRecord& record) {
-  return record.status == "finished" && !(record.verdict && record.verdict->word == "fail");
-}
-
-// The folder of an experiment that is running, rewritten after each run so that nothing is lost.
-class Journal {
- public:
-  Journal(const Experiment& experiment, const gpu::Context& context, const ReferenceStore& references,
-          fs::path folder)
-      : experiment_(experiment), context_(context), references_(references), folder_(std::move(folder)) {
-    make_folder(folder_);
-    manifest_ = {{"status", "running"},
-                 {"experiment", experiment.name},
-                 {"config_file", experiment.file.string()},
-                 {"config", experiment.config},
-                 {"device", device_json(context.device())},
-                 {"program", program_json()},
-                 {"metrics", metrics_json()},
-                 {"timing", timing_note()},
-                 {"warnings", experiment.warnings},
-                 {"started", utc_now()}};
-    write();
-  }
-
-  void add(RunRecord record) {
-    const auto after = std::ranges::upper_bound(records_, record.place, {}, &RunRecord::place);
-    records_.insert(after, std::move(record));
-    write();
-  }
-
-  // Returns whether all runs finished and met what was expected of them.
-  bool close(Progress& progress) {
-    separate(progress);
-    const bool all = std::all_of(records_.begin(), records_.end(),
-                                 [](const RunRecord& record) { return record.status == "finished"; });
-    manifest_["status"] = all ? "finished" : "failed";
-    manifest_["ended"] = utc_now();
-    write();
-    return std::all_of(records_.begin(), records_.end(), met_expectation);
-  }
-
-  std::string table() const {
-    return experiment_table(experiment_, records_, references_.used(), device_text(context_.device()));
-  }
-
- private:
-  std::vector<Cell> collect() const {
-    std::vector<Cell> cells = collect_cells(records_);
-    for (Cell& cell : cells) {
-      if (const auto parts = parts_.find(cell.name); parts != parts_.end()) cell.parts = parts->second;
-    }
-    return cells;
-  }
-
-  // Variance and bias of every cell, from the images in its runs' folders.
-  void separate(Progress& progress) {
-    for (const Cell& cell : collect_cells(records_)) {
-      if (cell.members.size() < 2) continue;
-      const auto image = [&](std::size_t seed) {
-        const RunRecord& run = *cell.members[seed];
-        const fs::path file = snapshot_file(folder_ / run.run.id, run.last_snapshot()->frame);
-        return to_radiance(read_exr(file), file);
-      };
-      try {
-        const Reference& reference = references_.used().at(cell.members.front()->reference_hash);
-        const StoredReference stored = read_reference(reference.file, reference.spec);
-        if (const auto parts = separate_errors(cell.members.size(), image, stored.image)) {
-          parts_.emplace(cell.name, *parts);
-        }
-      } catch (const std::exception& error) {
-        progress.warning(
-            fmt::format("{}: bias and variance are not told apart: {}", cell.name, error.what()));
-      }
-    }
-  }
-
-  void write() {
-    Json runs = Json::array();
-    auto record = records_.begin();
-    for (std::size_t i = 0; i < experiment_.runs.size(); ++i) {
-      const bool is_done = record != records_.end() && record->place == i;
-      Json run{{"run", experiment_.runs[i].id}, {"status", is_done ? record->status : "waiting"}};
-      if (is_done) {
-        run["order"] = record->order;
-        run["started"] = record->started;
-        if (!record->reason.empty()) run["reason"] = record->reason;
-        if (record->verdict) run["verdict"] = record->verdict->word;
-        ++record;
-      }
-      runs.push_back(std::move(run));
-    }
-    manifest_["runs"] = runs;
-    write_file(folder_ / "summary.csv", csv_text(run_columns(experiment_.axes), records_));
-    const std::vector<Cell> cells = collect();
-    write_file(folder_ / "cells.csv", csv_text(cell_columns(experiment_.axes), cells));
-    if (!experiment_.baseline.empty()) {
-      write_file(folder_ / "ratios.csv", csv_text(ratio_columns(), baseline_ratios(experiment_, cells)));
-    }
-    write_file(folder_ / "table.md", table());
-    write_json(folder_ / "manifest.json", manifest_);
-  }
-
-  const Experiment& experiment_;
-  const gpu::Context& context_;
-  const ReferenceStore& references_;
-  fs::path folder_;
-  std::vector<RunRecord> records_;           // in the order of the config
-  std::map<std::string, ErrorParts> parts_;  // by cell
-  Json manifest_;
-};
-
-// Each reference that the runs need, once, and as good as any of them wishes it: its length shall not depend
-// on the order of the runs.
-std::vector<ReferenceSpec> needed_references(const Experiment& experiment, SceneStore& scenes) {
-  std::vector<ReferenceSpec> specs;
-  for (const Run& run : experiment.runs) {
-    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.reference_file(run)).hash);
-    const auto same = std::ranges::find(specs, spec.hash, &ReferenceSpec::hash);
-    if (same == specs.end()) {
-      specs.push_back(std::move(spec));
-    } else {
-      same->wish = same->wish.joined(spec.wish);
-    }
-  }
-  return specs;
-}
-
-std::string outlook_text(const ReferenceOutlook& outlook) {
-  if (outlook.enough) return fmt::format("found with {} frames", outlook.frames);
-  if (outlook.frames > 0) return fmt::format("to be extended from {} frames", outlook.frames);
-  return "to be rendered";
-}
-
-void plan_work(const Experiment& experiment, const std::vector<ReferenceSpec>& needed,
-               const fs::path& results_root, Progress& progress) {
-  for (const Run& run : experiment.runs) progress.plan(run_work(run.config));
-  for (const ReferenceSpec& spec : needed) {
-    const ReferenceOutlook outlook = ReferenceStore::outlook(spec, results_root, experiment.folder());
-    if (outlook.enough) continue;
-    progress.plan(std::max(0, spec.wish.frames - outlook.frames) * spec.work_per_frame());
-  }
-}
+constexpr int kContexts = 3;  // a run is tried in this many, if each is lost
 
 std::string result_line(const std::string& label, const RunRecord& record) {
-  if (record.status != "finished") return fmt::format("{}: failed: {}", label, record.reason);
+  if (record.status == "failed") return fmt::format("{}: failed: {}", label, record.reason);
+  if (record.status == kPartial) return fmt::format("{}: {} frames so far", label, record.frames.size());
   std::string line = fmt::format("{}: finished, {} frames in {:.3g} s, relMSE {:.3g}", label,
                                  record.frames.size(), record.elapsed_s(), record.final_errors()->relmse);
   if (record.verdict) line += ", verdict " + record.verdict->word;
   if (record.verdict && !record.verdict->reason.empty()) line += ": " + record.verdict->reason;
   return line;
 }
+
+// An experiment at work.
+class Work {
+ public:
+  Work(const Experiment& experiment, gpu::Context& context, SceneStore& scenes, const RunChoices& choices,
+       const Stopper& stopper, const std::function<void()>& give_up, Progress& progress)
+      : experiment_(experiment),
+        context_(context),
+        scenes_(scenes),
+        choices_(choices),
+        stopper_(stopper),
+        give_up_(give_up),
+        progress_(progress),
+        folder_(experiment, identity_json(experiment, scenes, context.device()), choices.root, choices.shard,
+                choices.fresh, progress),
+        turns_(chosen_turns(experiment, choices)),
+        needed_(needed_references(experiment, turns_, scenes)),
+        references_(context, choices.root, stopper, progress),
+        journal_(experiment, scenes, context.device(), references_, folder_.path()) {}
+
+  bool run() {
+    adopt_earlier();
+    if (!choices_.merge) {
+      plan();
+      if (choices_.shard.is_whole()) journal_.write();
+      render();
+    }
+    if (choices_.references_only) return true;
+    return close("");
+  }
+
+ private:
+  const Run& run_of(const Turn& turn) const { return experiment_.runs[turn.place]; }
+  const LoadedScene& scene_of(const Run& run) const { return scenes_.load(experiment_.scene_file(run)); }
+  const LoadedScene& shown_by(const Run& run) const { return scenes_.load(experiment_.reference_file(run)); }
+
+  RunStore store_of(const Run& run) const {
+    return {folder_.path() / run.id,
+            run_identity(run.config, scene_of(run).hash, shown_by(run).hash, context_.device())};
+  }
+
+  // What earlier calls finished, of all runs: the files about the experiment show those that are not chosen,
+  // too.
+  void adopt_earlier() {
+    const auto complain = [this](const Error& error) {
+      progress_.warning(fmt::format("this run is done again: {}", error.what()));
+    };
+    std::size_t found = 0;
+    for (const Turn& turn : execution_order(experiment_)) {
+      auto record = store_of(run_of(turn)).read_record(run_of(turn), complain);
+      if (!record) continue;
+      record->place = turn.place;
+      record->order = turn.order;
+      if (record->status == "finished") ++found;
+      journal_.adopt(std::move(*record));
+    }
+    if (found > 0) {
+      progress_.note(fmt::format("{}: {} of {} runs are there already", folder_.path().string(), found,
+                                 experiment_.runs.size()));
+    }
+  }
+
+  bool is_done(const Turn& turn) const {
+    const RunRecord* record = journal_.find(turn.place);
+    if (record == nullptr || record->status == kPartial) return false;
+    return record->status == "finished" || choices_.keep_failed;
+  }
+
+  // Time and room for what is left. Throws Error where the disk has no room for it.
+  void plan() {
+    std::vector<Turn> left;
+    for (const Turn& turn : turns_) {
+      if (is_done(turn) || choices_.references_only) continue;
+      left.push_back(turn);
+      progress_.plan(run_work(run_of(turn).config));
+    }
+    std::vector<ReferenceSpec> missing;
+    for (const ReferenceSpec& spec : needed_) {
+      const ReferenceOutlook outlook = ReferenceStore::outlook(spec, choices_.root, experiment_.folder());
+      if (outlook.enough) continue;
+      missing.push_back(spec);
+      progress_.plan(std::max(0, spec.wish.frames - outlook.frames) * spec.work_per_frame());
+    }
+    const double needed = needed_bytes(experiment_, left, missing, scenes_);
+    const double free = free_bytes(folder_.path());
+    check(needed <= free,
+          "{}: what is left to do needs up to {} there and {} are free: make room, write elsewhere by --out, "
+          "or keep "
+          "fewer snapshots",
+          folder_.path().string(), bytes_text(needed), bytes_text(free));
+  }
+
+  void render() {
+    try {
+      if (choices_.references_only) {
+        for (const Turn& turn : turns_) reference_of(run_of(turn));
+        return;
+      }
+      for (const Step& step : steps_of(experiment_, turns_, choices_.in_rounds)) {
+        stopper_.check();
+        if (!is_done(step.turn)) take(step);
+      }
+    } catch (const Stopped& stopped) {
+      close(stopped.why);
+      throw;
+    }
+  }
+
+  void take(const Step& step) {
+    const Run& run = run_of(step.turn);
+    const std::string label = fmt::format("run {}/{} {}", step.turn.order, experiment_.runs.size(), run.id);
+    auto [record, stopped] = execute(step, label);
+    record.place = step.turn.place;
+    record.order = step.turn.order;
+    if (record.status == kPartial || met_expectation(record)) {
+      progress_.note(result_line(label, record));
+    } else {
+      progress_.warning(result_line(label, record));
+    }
+    const bool has_failed = record.status == "failed";
+    journal_.add(std::move(record));
+    if (stopped) throw *stopped;
+    if (has_failed && choices_.fail_fast) throw Stopped{fmt::format("{} failed (--fail-fast)", run.id), 1};
+  }
+
+  // Again in a new context where one was lost; the checkpoint saves what was done.
+  RunEnd execute(const Step& step, const std::string& label) {
+    const Run& run = run_of(step.turn);
+    for (int attempt = 1;; ++attempt) {
+      try {
+        return execute_run({.context = context_,
+                            .experiment = experiment_,
+                            .run = run,
+                            .scene = scene_of(run),
+                            .shown = shown_by(run),
+                            .get_reference = [&] { return reference_of(run); },
+                            .folder = folder_.path() / run.id,
+                            .label = label,
+                            .stopper = &stopper_,
+                            .until = step.until,
+                            .watchdog = &watchdog_,
+                            .give_up = give_up_},
+                           progress_);
+      } catch (const gpu::ContextLost& lost) {
+        if (attempt == kContexts) throw Stopped{lost.what(), 1};
+        progress_.warning(fmt::format("{}: {}; going on in a new context", label, lost.what()));
+        context_.renew();
+      }
+    }
+  }
+
+  std::shared_ptr<const Reference> reference_of(const Run& run) {
+    const std::string hash = reference_spec(run.config, shown_by(run).hash).hash;
+    const auto spec = std::ranges::find(needed_, hash, &ReferenceSpec::hash);
+    return references_.get(*spec, shown_by(run), experiment_.folder());
+  }
+
+  // Returns whether all is done. A shard leaves the files about all runs to the merge.
+  bool close(const std::string& stopped) {
+    if (!choices_.shard.is_whole()) {
+      return std::ranges::all_of(turns_, [this](const Turn& turn) {
+        const RunRecord* record = journal_.find(turn.place);
+        return record != nullptr && met_expectation(*record);
+      });
+    }
+    for (const Turn& turn : turns_) {
+      const Run& run = run_of(turn);
+      const std::string hash = reference_spec(run.config, shown_by(run).hash).hash;
+      const auto spec = std::ranges::find(needed_, hash, &ReferenceSpec::hash);
+      references_.note(*spec, shown_by(run), experiment_.folder());
+    }
+    try {
+      journal_.close(stopped, progress_);
+    } catch (const Error& error) {
+      if (stopped.empty()) throw;
+      progress_.warning(error.what());  // the disk may be full, which is why the work was stopped
+    }
+    if (!choices_.references_only) fmt::print("{}\nFiles: {}\n", journal_.table(), folder_.path().string());
+    return journal_.all_finished();
+  }
+
+  const Experiment& experiment_;
+  gpu::Context& context_;
+  SceneStore& scenes_;
+  const RunChoices& choices_;
+  const Stopper& stopper_;
+  const std::function<void()>& give_up_;
+  Progress& progress_;
+  ResultsFolder folder_;
+  std::vector<Turn> turns_;
+  std::vector<ReferenceSpec> needed_;
+  ReferenceStore references_;
+  Journal journal_;
+  Watchdog watchdog_;
+};
 
 }  // namespace
 
@@ -206,88 +257,10 @@ void check_device(const Experiment& experiment, const gpu::Context& context, Sce
   }
 }
 
-std::string describe_runs(const Experiment& experiment, SceneStore& scenes, const fs::path& results_root) {
-  std::vector<std::vector<std::string>> rows;
-  for (const Run& run : experiment.runs) {
-    const RenderSettings& render = run.config.render;
-    const LoadedScene& scene = scenes.load(experiment.scene_file(run));
-    rows.push_back({run.id, fmt::format("{} ({} triangles)", scene.scene.name, scene.scene.triangles.size()),
-                    fmt::format("{}x{}", render.width, render.height), std::to_string(run.config.frames),
-                    std::to_string(render.max_bounces), std::string(enum_name(render.sampler)),
-                    std::string(enum_name(render.nee)), std::to_string(render.seed)});
-  }
-  std::string text = fmt::format("{}: {} runs\n", experiment.name, experiment.runs.size());
-  text += plain_table({"run", "scene", "size", "frames", "bounces", "sampler", "nee", "seed"}, rows);
-  for (const ReferenceSpec& spec : needed_references(experiment, scenes)) {
-    const ReferenceOutlook outlook = ReferenceStore::outlook(spec, results_root, experiment.folder());
-    text += fmt::format("reference {}: {}, {}\n", spec.hash, spec.wish.text(), outlook_text(outlook));
-  }
-  return text;
-}
-
-std::optional<fs::path> move_aside(const fs::path& folder) {
-  if (!fs::exists(folder)) return std::nullopt;
-  int number = 1;
-  fs::path aside;
-  do {
-    aside = folder.string() + '.' + std::to_string(number++);
-  } while (fs::exists(aside));
-  std::error_code error;
-  fs::rename(folder, aside, error);
-  check(!error, "{}: earlier results cannot be moved to {}: {}", folder.string(), aside.string(),
-        error.message());
-  return aside;
-}
-
-std::vector<std::size_t> execution_order(const Experiment& experiment) {
-  std::map<std::string, int> runs_of_cell;
-  std::vector<std::pair<int, std::size_t>> turns;  // (repetition, place)
-  for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
-    turns.emplace_back(runs_of_cell[experiment.runs[i].cell]++, i);
-  }
-  std::ranges::sort(turns);
-  std::vector<std::size_t> order;
-  for (const auto& [repetition, place] : turns) order.push_back(place);
-  return order;
-}
-
-bool run_experiment(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes,
-                    const fs::path& results_root, Progress& progress) {
-  const fs::path folder = results_root / experiment.name;
-  make_folder(results_root);
-  if (const auto aside = move_aside(folder)) {
-    progress.note(fmt::format("{}: earlier results are kept as {}", folder.string(), aside->string()));
-  }
-  const std::vector<ReferenceSpec> needed = needed_references(experiment, scenes);
-  plan_work(experiment, needed, results_root, progress);
-  ReferenceStore references(context, results_root, progress);
-  Journal journal(experiment, context, references, folder);
-  int order = 0;
-  for (const std::size_t place : execution_order(experiment)) {
-    const Run& run = experiment.runs[place];
-    ++order;
-    const LoadedScene& scene = scenes.load(experiment.scene_file(run));
-    const LoadedScene& shown = scenes.load(experiment.reference_file(run));
-    const auto reference = [&] {
-      const std::string hash = reference_spec(run.config, shown.hash).hash;
-      const auto spec = std::ranges::find(needed, hash, &ReferenceSpec::hash);
-      return references.get(*spec, shown, experiment.folder());
-    };
-    const std::string label = fmt::format("run {}/{} {}", order, experiment.runs.size(), run.id);
-    RunRecord record = execute_run(
-        {context, experiment, run, scene, shown.hash, reference, folder / run.id, label}, progress);
-    record.place = place;
-    record.order = order;
-    if (met_expectation(record)) {
-      progress.note(result_line(label, record));
-    } else {
-      progress.warning(result_line(label, record));
-    }
-    journal.add(std::move(record));
-  }
-  const bool all_good = journal.close(progress);
-  fmt::print("{}\nFiles: {}\n", journal.table(), folder.string());
-  return all_good;
+bool run_experiment(const Experiment& experiment, gpu::Context& context, SceneStore& scenes,
+                    const RunChoices& choices, const Stopper& stopper, const std::function<void()>& give_up,
+                    Progress& progress) {
+  return Work(experiment, context, scenes, choices, stopper, give_up, progress).run();
 }
 
 }  // namespace qtrace::experiments

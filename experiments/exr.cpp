@@ -63,7 +63,7 @@ void write_exr(const std::filesystem::path& file, const ExrImage& image) {
   try {
     write_planes(target.temporary(), image);
   } catch (const std::exception& error) {
-    fail("{}: cannot be written: {}", file.string(), error.what());
+    fail_to_write(file, error.what());
   }
   target.commit();
 }

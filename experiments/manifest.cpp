@@ -12,7 +12,9 @@ namespace qtrace::experiments {
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
-Json program_json() { return {{"name", "qtrace"}, {"version", version()}, {"commit", commit()}}; }
+Json program_json() {
+  return {{"name", "qtrace"}, {"version", version()}, {"commit", commit()}, {"binary", binary_hash()}};
+}
 
 Json device_json(const gpu::DeviceInfo& device) {
   return {{"renderer", device.renderer},

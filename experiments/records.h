@@ -47,11 +47,14 @@ struct FireflyRecord {
   std::optional<double> brightest;        // radiance
 };
 
+// The status of a run that was stopped and can be gone on with.
+inline constexpr const char* kPartial = "partial";
+
 // One run; what it did not reach stays empty.
 struct RunRecord {
   Run run;
   std::string scene;      // file name without folder and extension
-  std::string status;     // "running", "finished" or "failed"
+  std::string status;     // "running", "finished", "failed" or kPartial
   std::string reason;     // of a failure
   std::size_t place = 0;  // among the runs of the config
   int order = 0;          // of execution, from 1
@@ -69,7 +72,10 @@ struct RunRecord {
   double elapsed_s() const { return frames.empty() ? 0 : frames.back().elapsed_s; }
   double gpu_elapsed_s() const { return frames.empty() ? 0 : frames.back().gpu_elapsed_s; }
   FrameStatistics totals() const;
-  const SnapshotRecord* last_snapshot() const;          // null unless finished
+  // Forgets the frames after it, so that errors and times belong together where a run was stopped between
+  // two.
+  void end_at_last_snapshot();
+  const SnapshotRecord* last_snapshot() const;          // null unless finished or partial
   const ErrorMetrics* final_errors() const;             // of it
   const FilteredRecord* final_filtered() const;         // of it; null where nothing was filtered
   std::optional<double> relmse_x_seconds() const;       // inefficiency: final relmse * elapsed_s

@@ -28,11 +28,12 @@ fs::path state_file(const fs::path& file) { return fs::path(file).replace_extens
 class Rendering {
  public:
   Rendering(const gpu::Context& context, const ReferenceSpec& spec, const LoadedScene& scene, fs::path file,
-            Progress& progress)
+            const Stopper& stopper, Progress& progress)
       : context_(context),
         spec_(spec),
         scene_(scene),
         file_(std::move(file)),
+        stopper_(stopper),
         progress_(progress),
         tracer_(context, scene.scene, spec.settings) {
     for (const std::string& warning : tracer_.warnings()) warn(warning);
@@ -107,10 +108,13 @@ class Rendering {
     while (frames() < last) {
       tracer_.render_frame();
       context_.finish();
+      context_.check_alive();
       non_finite_ += tracer_.last_frame_statistics().non_finite;
       progress_.step(frames());
-      if (Clock::now() - saved_ < pause_) continue;
+      const auto stopped = stopper_.reason();
+      if (!stopped && Clock::now() - saved_ < pause_) continue;
       write_state(state_file(file_), state());
+      if (stopped) throw *stopped;
       saved_ = Clock::now();
       pause_ = std::min(2 * pause_, kLongestPause);
     }
@@ -156,6 +160,7 @@ class Rendering {
   const ReferenceSpec& spec_;
   const LoadedScene& scene_;
   fs::path file_;
+  const Stopper& stopper_;
   Progress& progress_;
   Tracer tracer_;
   int first_ = 0;  // frames that were there before
@@ -184,9 +189,9 @@ std::optional<StoredState> read_reference_state(const fs::path& file, const Refe
 }
 
 bool render_reference(const gpu::Context& context, const ReferenceSpec& spec, const LoadedScene& scene,
-                      const fs::path& file, Progress& progress) {
+                      const fs::path& file, const Stopper& stopper, Progress& progress) {
   make_folder(file.parent_path());
-  Rendering rendering(context, spec, scene, file, progress);
+  Rendering rendering(context, spec, scene, file, stopper, progress);
   const bool extended = rendering.restore();
   rendering.run();
   rendering.keep();

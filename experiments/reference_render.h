@@ -7,6 +7,7 @@
 #include "experiments/reference.h"
 #include "experiments/scene_store.h"
 #include "experiments/state_file.h"
+#include "experiments/stopper.h"
 
 #include <filesystem>
 #include <functional>
@@ -23,8 +24,8 @@ std::optional<StoredState> read_reference_state(const std::filesystem::path& fil
 // half2 the means of the odd and of the even frames) and the JSON beside it, each whole or not at all. The
 // state is written on the way, too, so that a killed process loses little. Whatever was interrupted or
 // extended, the image has the bits of one rendered in one go, on one device and driver. Returns whether there
-// was a state to go on from. Throws Error.
+// was a state to go on from. Throws Error, gpu::ContextLost, and Stopped, with its state written.
 bool render_reference(const gpu::Context& context, const ReferenceSpec& spec, const LoadedScene& scene,
-                      const std::filesystem::path& file, Progress& progress);
+                      const std::filesystem::path& file, const Stopper& stopper, Progress& progress);
 
 }  // namespace qtrace::experiments

@@ -1,6 +1,8 @@
 #include "experiments/reference_store.h"
 
 #include "engine/core/check.h"
+#include "experiments/atomic_file.h"
+#include "experiments/folder_lock.h"
 #include "experiments/reference_render.h"
 
 #include <algorithm>
@@ -14,7 +16,9 @@ namespace fs = std::filesystem;
 
 using Complaint = std::function<void(const Error&)>;
 
-struct Found {
+}  // namespace
+
+struct FoundReference {
   fs::path file;
   std::string origin;
   StoredReference stored;
@@ -23,6 +27,10 @@ struct Found {
     return wish.settled(stored.image.samples, *reference_noise(stored.image));
   }
 };
+
+namespace {
+
+using Found = FoundReference;
 
 fs::path kept_file(const fs::path& results_root, const std::string& hash) {
   return results_root / "references" / (hash + ".exr");
@@ -56,8 +64,15 @@ std::optional<Found> find(const ReferenceSpec& spec, const fs::path& results_roo
 
 }  // namespace
 
-ReferenceStore::ReferenceStore(const gpu::Context& context, fs::path results_root, Progress& progress)
-    : context_(context), results_root_(std::move(results_root)), progress_(progress) {}
+std::string ReferenceOutlook::text() const {
+  if (enough) return fmt::format("found with {} frames", frames);
+  if (frames > 0) return fmt::format("to be extended from {} frames", frames);
+  return "to be rendered";
+}
+
+ReferenceStore::ReferenceStore(const gpu::Context& context, fs::path results_root, const Stopper& stopper,
+                               Progress& progress)
+    : context_(context), results_root_(std::move(results_root)), stopper_(stopper), progress_(progress) {}
 
 ReferenceOutlook ReferenceStore::outlook(const ReferenceSpec& spec, const fs::path& results_root,
                                          const fs::path& config_folder) {
@@ -78,14 +93,31 @@ std::shared_ptr<const Reference> ReferenceStore::get(const ReferenceSpec& spec, 
   last_.reset();  // before the next one takes its memory
   try {
     last_ = std::make_shared<const Reference>(find_or_render(spec, scene, config_folder));
+  } catch (const gpu::ContextLost&) {
+    throw;
+  } catch (const DiskFull& error) {
+    throw Stopped{error.what(), 1};
   } catch (const std::exception& error) {
     failures_[spec.hash] = error.what();
     throw;
   }
-  Reference summary = *last_;
-  summary.image = RadianceImage{};
-  used_.insert_or_assign(spec.hash, std::move(summary));
+  remember(*last_);
   return last_;
+}
+
+void ReferenceStore::note(const ReferenceSpec& spec, const LoadedScene& scene,
+                          const fs::path& config_folder) {
+  if (used_.contains(spec.hash)) return;
+  int frames = 0;
+  auto found = find(
+      spec, results_root_, config_folder, [](const Error&) {}, frames);
+  if (found) remember(use(spec, scene, std::move(*found)));
+}
+
+void ReferenceStore::remember(const Reference& reference) {
+  Reference summary = reference;
+  summary.image = RadianceImage{};
+  used_.insert_or_assign(reference.spec.hash, std::move(summary));
 }
 
 Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const LoadedScene& scene,
@@ -95,22 +127,33 @@ Reference ReferenceStore::find_or_render(const ReferenceSpec& spec, const Loaded
   };
   int frames = 0;
   auto found = find(spec, results_root_, config_folder, complain, frames);
+  if (found) return use(spec, scene, std::move(*found));
+  const fs::path file = kept_file(results_root_, spec.hash);
+  make_folder(file.parent_path());
+  const auto lock =
+      FolderLock::wait(file.parent_path() / fmt::format(".{}.lock", spec.hash), [this] { stopper_.check(); });
+  // Another process may have rendered it in the meantime.
+  found = find(
+      spec, results_root_, config_folder, [](const Error&) {}, frames);
   if (!found) {
     ReferenceSpec longer = spec;  // never replaced by a shorter one
     longer.wish.frames = std::max(spec.wish.frames, frames);
-    const fs::path file = kept_file(results_root_, spec.hash);
-    const bool extended = render_reference(context_, longer, scene, file, progress_);
+    const bool extended = render_reference(context_, longer, scene, file, stopper_, progress_);
     found = Found{file, extended ? "extended" : "rendered", read_reference(file, spec)};
   }
+  return use(spec, scene, std::move(*found));
+}
+
+Reference ReferenceStore::use(const ReferenceSpec& spec, const LoadedScene& scene, FoundReference found) {
   Reference reference;
   reference.spec = spec;
   reference.scene = scene.scene.name;
-  reference.file = found->file;
-  reference.origin = found->origin;
-  reference.image = std::move(found->stored.image);
+  reference.file = found.file;
+  reference.origin = found.origin;
+  reference.image = std::move(found.stored.image);
   reference.samples = reference.image.samples;
   reference.noise = *reference_noise(reference.image);
-  reference.non_finite = found->stored.non_finite;
+  reference.non_finite = found.stored.non_finite;
   if (used_.contains(spec.hash)) return reference;  // warned of before
   if (reference.non_finite > 0) {
     progress_.warning(fmt::format("{}: {} samples of this reference were not finite and count as 0 in it",

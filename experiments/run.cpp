@@ -3,10 +3,13 @@
 #include "engine/gpu/timer.h"
 #include "engine/tracer/atrous.h"
 #include "engine/tracer/tracer.h"
+#include "experiments/atomic_file.h"
 #include "experiments/fireflies.h"
 #include "experiments/flip.h"
 #include "experiments/hash.h"
 #include "experiments/manifest.h"
+#include "experiments/run_manifest.h"
+#include "experiments/run_store.h"
 #include "experiments/version.h"
 
 #include <algorithm>
@@ -37,21 +40,26 @@ class Execution {
       : job_(job),
         record_(record),
         files_(job.make_files(job.folder, metadata())),
-        manifest_(first_manifest()) {
-    files_->write_manifest(manifest_);
-  }
+        store_(job.folder, identity_of(job)),
+        manifest_(first_manifest(job, record)) {}
 
   void run(Progress& progress) {
+    auto checkpoint = store_.read_checkpoint([&](const Error& error) {
+      progress.warning(
+          fmt::format("this checkpoint cannot be used, so its run starts anew: {}", error.what()));
+    });
+    if (checkpoint) adopt(std::move(checkpoint->record));
+    files_->write_manifest(manifest_);
     const auto reference = job_.get_reference();
     manifest_["reference"] = reference_json(*reference);
     if (const std::string warning = noise_warning(*reference); !warning.empty()) {
       manifest_["warnings"].push_back(warning);
     }
-    progress.begin(job_.label, config().frames, run_work(config()) / config().frames);
+    progress.begin(job_.label, last_frame(), run_work(config()) / config().frames, frames());
     begun_ = true;
     const auto start = Clock::now();
     Tracer tracer(job_.context, job_.scene.scene, config().render);
-    record_.setup_s = seconds_since(start);
+    if (!checkpoint) record_.setup_s = seconds_since(start);
     manifest_["cells"] = tracer.cells();
     manifest_["device_bytes"] = tracer.device_bytes();
     for (const std::string& warning : tracer.warnings()) warn(warning, progress);
@@ -62,26 +70,32 @@ class Execution {
     }
     tracer.set_firefly_thresholds(firefly_thresholds(reference->image, config().firefly_multiple));
     if (saves_table()) prepare_table(tracer.table(), progress);
+    if (checkpoint) tracer.restore(checkpoint->state);
+    checkpoint.reset();  // as large as the tracer's buffers
     render(tracer, *reference, progress);
-    judge_image(tracer.radiance(), *reference);
+    if (frames() == config().frames) finish(tracer, *reference, progress);
   }
 
   bool begun() const { return begun_; }
 
-  // Writes what was measured and closes the manifest.
+  int frames() const { return static_cast<int>(record_.frames.size()); }
+
+  // What was measured is written, and the manifest closed: a run has ended only when that says so.
   void close(const std::string& status, const std::string& reason) {
     record_.status = status;
     record_.reason = reason;
     manifest_["status"] = status;
     if (!reason.empty()) manifest_["reason"] = reason;
-    manifest_["ended"] = utc_now();
+    if (status != kPartial) manifest_["ended"] = utc_now();
     manifest_["frames"] = record_.frames.size();
     manifest_["setup_s"] = record_.setup_s;
     manifest_["elapsed_s"] = record_.elapsed_s();
     manifest_["gpu_elapsed_s"] = record_.gpu_elapsed_s();
     manifest_["non_finite"] = record_.totals().non_finite;
     files_->write_tables(record_);
+    if (status != kPartial) store_.write_record(record_);
     files_->write_manifest(manifest_);
+    if (status == "finished") store_.remove_checkpoint();
   }
 
  private:
@@ -93,42 +107,62 @@ class Execution {
             {"software", software()}};
   }
 
-  Json first_manifest() const {
-    Json axes = Json::object();
-    for (std::size_t i = 0; i < job_.experiment.axes.size(); ++i) {
-      axes[job_.experiment.axes[i].name] = job_.run.labels[i];
-    }
-    Json manifest{{"status", "running"},
-                  {"experiment", job_.experiment.name},
-                  {"run", job_.run.id},
-                  {"cell", job_.run.cell},
-                  {"axes", axes},
-                  {"config", write_knobs(config())},
-                  {"config_hash", record_.config_hash},
-                  {"scene", scene_json(job_.scene)},
-                  {"reference", {{"hash", record_.reference_hash}}},
-                  {"device", device_json(job_.context.device())},
-                  {"program", program_json()},
-                  {"metrics", metrics_json()},
-                  {"timing", timing_note()},
-                  {"started", record_.started},
-                  {"warnings", Json::array()}};
-    const std::string warning = light_warning(job_.scene, config());
-    if (!warning.empty()) manifest["warnings"].push_back(warning);
-    return manifest;
+  static std::string identity_of(const RunJob& job) {
+    return run_identity(job.run.config, job.scene.hash, job.shown.hash, job.context.device());
+  }
+
+  int last_frame() const { return job_.until > 0 ? std::min(job_.until, config().frames) : config().frames; }
+
+  // What was measured before the run was interrupted.
+  void adopt(RunRecord earlier) {
+    earlier.run = record_.run;
+    record_ = std::move(earlier);
+    record_.status = "running";
+    manifest_["started"] = record_.started;
+    manifest_["resumed_after_frame"] = frames();
   }
 
   void render(Tracer& tracer, const Reference& reference, Progress& progress) {
     const std::vector<int> snapshots = config().snapshots.resolve(config().frames);
     gpu::Timer timer;
     std::optional<double> relmse;
-    for (int frame = 1; frame <= config().frames; ++frame) {
+    Clock::time_point saved = Clock::now();
+    for (int frame = frames() + 1; frame <= last_frame(); ++frame) {
+      guard_frame(frame);
       measure_frame(frame, tracer, timer);
+      if (job_.watchdog != nullptr) job_.watchdog->disarm();
+      job_.context.check_alive();
       if (std::binary_search(snapshots.begin(), snapshots.end(), frame)) {
         relmse = take_snapshot(frame, tracer, reference);
       }
       progress.step(frame, relmse);
+      if (frame == config().frames) return;
+      const auto stopped = job_.stopper == nullptr ? std::nullopt : job_.stopper->reason();
+      if (stopped || frame == last_frame() || seconds_since(saved) >= config().checkpoint_s) {
+        save_checkpoint(tracer);
+        saved = Clock::now();
+      }
+      if (stopped) throw *stopped;
     }
+  }
+
+  void guard_frame(int frame) {
+    if (job_.watchdog == nullptr) return;
+    job_.watchdog->arm(config().frame_timeout_s, [this, frame] {
+      close("failed", fmt::format("frame {} took longer than frame_timeout_s, {:g} s", frame,
+                                  config().frame_timeout_s));
+      job_.give_up();
+    });
+  }
+
+  void save_checkpoint(const Tracer& tracer) {
+    store_.write_checkpoint(record_, tracer.state());
+    manifest_["checkpoint_frame"] = frames();
+    files_->write_manifest(manifest_);
+  }
+
+  void finish(Tracer& tracer, const Reference& reference, Progress& progress) {
+    judge_image(tracer.radiance(), reference);
     note_non_finite(tracer, progress);
     const Outliers outliers = tracer.outliers();
     record_.fireflies = firefly_record(outliers, tracer.radiance());
@@ -229,6 +263,7 @@ class Execution {
   const RunJob& job_;
   RunRecord& record_;
   std::unique_ptr<RunFiles> files_;
+  RunStore store_;
   Json manifest_;
   std::optional<AtrousFilter> filter_;
   bool begun_ = false;
@@ -244,40 +279,48 @@ double run_work(const RunConfig& config) {
   return static_cast<double>(config.render.width) * config.render.height * config.frames;
 }
 
-RunRecord execute_run(const RunJob& job, Progress& progress) {
-  RunRecord record;
+RunEnd execute_run(const RunJob& job, Progress& progress) {
+  RunEnd result;
+  RunRecord& record = result.record;
   record.run = job.run;
   record.scene = job.scene.scene.name;
   record.status = "running";
   record.started = utc_now();
   record.config_hash = config_hash(job.run.config, job.scene.hash);
-  record.reference_hash = reference_spec(job.run.config, job.reference_scene_hash).hash;
+  record.reference_hash = reference_spec(job.run.config, job.shown.hash).hash;
   std::optional<Execution> execution;
+  const auto close = [&](const std::string& status, const std::string& reason) {
+    record.status = status;
+    record.reason = reason;
+    try {
+      if (execution) execution->close(status, reason);
+    } catch (const std::exception& error) {
+      progress.warning(fmt::format("{}: {}", job.run.id, error.what()));
+    }
+  };
+  const auto end = [&] {
+    if (execution && execution->begun()) return progress.end();
+    progress.plan(-run_work(job.run.config));  // nothing of it will be done
+  };
   try {
     execution.emplace(job, record);
     execution->run(progress);
-    execution->close("finished", "");
-  } catch (const std::exception& error) {
-    record.status = "failed";
-    record.reason = error.what();
-    try {
-      if (execution) execution->close("failed", record.reason);
-    } catch (const std::exception& second) {
-      progress.warning(fmt::format("{}: {}", job.run.id, second.what()));
-    }
-  }
-  if (execution && execution->begun()) {
+    const bool is_whole = execution->frames() == job.run.config.frames;
+    execution->close(is_whole ? "finished" : kPartial, "");
+  } catch (const Stopped& stopped) {
+    close(kPartial, stopped.why);
+    result.stopped = stopped;
+  } catch (const DiskFull& error) {
+    close(kPartial, error.what());
+    result.stopped = Stopped{error.what(), 1};
+  } catch (const gpu::ContextLost&) {
     progress.end();
-  } else {
-    progress.plan(-run_work(job.run.config));  // nothing of it will be done
+    throw;
+  } catch (const std::exception& error) {
+    close("failed", error.what());
   }
-  return record;
-}
-
-std::string light_warning(const LoadedScene& scene, const RunConfig& config) {
-  const auto& environment = config.render.environment;
-  const bool lit = has_light(scene.scene) || *std::max_element(environment.begin(), environment.end()) > 0;
-  return lit ? "" : fmt::format("{}: the scene has no light: the image will be black", scene.file.string());
+  end();
+  return result;
 }
 
 }  // namespace qtrace::experiments

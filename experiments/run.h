@@ -7,6 +7,8 @@
 #include "experiments/reference.h"
 #include "experiments/run_files.h"
 #include "experiments/scene_store.h"
+#include "experiments/stopper.h"
+#include "experiments/watchdog.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,10 +24,16 @@ struct RunJob {
   const Experiment& experiment;
   const Run& run;
   const LoadedScene& scene;
-  const std::string& reference_scene_hash;  // of what its reference shows
+  const LoadedScene& shown;  // by its reference
   std::function<std::shared_ptr<const Reference>()> get_reference;
-  std::filesystem::path folder;  // made here
-  std::string label;             // for the progress line
+  std::filesystem::path folder;      // made here
+  std::string label;                 // for the progress line
+  const Stopper* stopper = nullptr;  // null: the run is never interrupted
+  int until = 0;                     // a frame to stop after, to go on later; 0: the last
+  Watchdog* watchdog = nullptr;      // null: frames may take any time
+  // Called on the watchdog's thread when a frame has taken too long and the run's files say so; shall not
+  // return.
+  std::function<void()> give_up = {};
   std::function<std::unique_ptr<RunFiles>(const std::filesystem::path&, const ExrMetadata&)> make_files =
       make_run_files;
 };
@@ -33,9 +41,17 @@ struct RunJob {
 // Pixels times frames, the unit of progress.
 double run_work(const RunConfig& config);
 
-// Never throws for a run that fails: the record and, where it can be written, its manifest say why, and what
-// was measured until then is written.
-RunRecord execute_run(const RunJob& job, Progress& progress);
+struct RunEnd {
+  RunRecord record;
+  std::optional<Stopped>
+      stopped;  // why no other run should follow: by the stopper, or because the disk is full
+};
+
+// A finished, failed or partial run, which a checkpoint is kept of. What an earlier call left as a checkpoint
+// is gone on with, to the same bits. Never throws for a run that fails: the record and, where it can be
+// written, its manifest say why, and what was measured until then is written. Throws gpu::ContextLost, after
+// which another call with a new context goes on.
+RunEnd execute_run(const RunJob& job, Progress& progress);
 
 // Why this run's image is black although nothing is wrong, or empty.
 std::string light_warning(const LoadedScene& scene, const RunConfig& config);

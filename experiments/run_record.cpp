@@ -37,7 +37,8 @@ FrameStatistics RunRecord::totals() const {
 }
 
 const SnapshotRecord* RunRecord::last_snapshot() const {
-  return status == "finished" && !snapshots.empty() ? &snapshots.back() : nullptr;
+  const bool counts = status == "finished" || status == kPartial;
+  return counts && !snapshots.empty() ? &snapshots.back() : nullptr;
 }
 
 const ErrorMetrics* RunRecord::final_errors() const {
@@ -60,6 +61,10 @@ std::optional<double> RunRecord::fireflies_per_million() const {
   const FrameStatistics total = totals();
   if (total.paths == 0) return std::nullopt;
   return 1e6 * static_cast<double>(total.fireflies) / static_cast<double>(total.paths);
+}
+
+void RunRecord::end_at_last_snapshot() {
+  if (!snapshots.empty()) frames.resize(static_cast<std::size_t>(snapshots.back().frame));
 }
 
 }  // namespace qtrace::experiments

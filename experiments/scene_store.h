@@ -20,6 +20,8 @@ class SceneStore {
   // The reference stays valid as long as the store. Throws Error that names the file.
   const LoadedScene& load(const std::filesystem::path& file);
 
+  const std::map<std::filesystem::path, LoadedScene>& all() const { return scenes_; }
+
  private:
   std::map<std::filesystem::path, LoadedScene> scenes_;
 };

@@ -55,7 +55,7 @@ std::string submit_script(const fs::path& script, const std::vector<std::string>
   std::vector<std::string> words{"sbatch", "--parsable"};
   words.insert(words.end(), options.begin(), options.end());
   words.push_back(script.string());
-  const CommandResult result = run_command(words);
+  const CommandResult result = run_program(words);
   const std::string job = trimmed(result.out.substr(0, result.out.find(';')));  // "job;cluster"
   const bool is_number =
       !job.empty() && std::ranges::all_of(job, [](char c) { return c >= '0' && c <= '9'; });
@@ -82,7 +82,7 @@ std::vector<std::string> submit_jobs(const Plan& plan) {
     if (jobs.empty()) throw;
     std::vector<std::string> words{"scancel"};
     words.insert(words.end(), jobs.begin(), jobs.end());
-    const bool cancelled = run_command(words).exit_code == 0;
+    const bool cancelled = run_program(words).exit_code == 0;
     fail("{}; the jobs before it, {}, {}", error.what(), fmt::join(jobs, " "),
          cancelled ? "are cancelled again" : "cannot be cancelled: scancel them");
   }

@@ -115,6 +115,17 @@ std::string failure_lines(const std::vector<RunRecord>& records) {
   return lines.empty() ? lines : "\nFailed runs:\n" + lines;
 }
 
+std::string unfinished_lines(const Experiment& experiment, const std::vector<RunRecord>& records) {
+  const auto partial = std::ranges::count(records, std::string(kPartial), &RunRecord::status);
+  const std::size_t missing = experiment.runs.size() - records.size();
+  if (partial == 0 && missing == 0) return "";
+  return fmt::format(
+      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their cell is "
+      "finished), "
+      "{} not begun, of {}.\n",
+      partial, missing, experiment.runs.size());
+}
+
 std::string verdict_lines(const std::vector<RunRecord>& records) {
   std::string lines;
   for (const RunRecord& record : records) {
@@ -172,8 +183,9 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
     text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
             ratio_table(ratios, scene) + clamping_lines(rows);
   }
-  return text + slope_lines(cells) + time_lines(records) + failure_lines(records) + verdict_lines(records) +
-         reference_lines(references) + notes(experiment);
+  return text + slope_lines(cells) + time_lines(records) + failure_lines(records) +
+         unfinished_lines(experiment, records) + verdict_lines(records) + reference_lines(references) +
+         notes(experiment);
 }
 
 }  // namespace qtrace::experiments

@@ -1,5 +1,8 @@
 #include "experiments/version.h"
 
+#include "experiments/atomic_file.h"
+#include "experiments/hash.h"
+
 #include <qtrace_commit.h>  // written by every build, see cmake/write_commit.cmake
 
 namespace qtrace::experiments {
@@ -7,6 +10,11 @@ namespace qtrace::experiments {
 std::string version() { return QTRACE_VERSION; }
 
 std::string commit() { return QTRACE_COMMIT; }
+
+std::string binary_hash() {
+  static const std::string hash = hash_text(read_file("/proc/self/exe"));  // the file does not change
+  return hash;
+}
 
 std::string software() { return "qtrace " + version() + " (" + commit() + ")"; }
 

@@ -58,7 +58,8 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 struct Context::State {
-  State(const Platform& platform, const DeviceInfo& info) : egl(platform), device(info) {}
+  State(const Platform& from, const DeviceInfo& info) : platform(from), egl(from), device(info) {}
+  Platform platform;
   EglContext egl;
   DeviceInfo device;
 };
@@ -78,8 +79,27 @@ const DeviceInfo& Context::device() const { return state_->device; }
 void Context::finish() const {
   glFinish();
   const GLenum error = glGetError();
+  if (error == GL_CONTEXT_LOST) check_alive();
   check(error == GL_NO_ERROR, "the OpenGL driver reported error 0x{:04x} ({})", error,
         error == GL_OUT_OF_MEMORY ? "out of memory" : "a mistake of this program");
+}
+
+void Context::check_alive() const {
+  const GLenum status = glGetGraphicsResetStatus();
+  if (status == GL_NO_ERROR) return;
+  throw ContextLost(fmt::format("the device was reset ({})",
+                                status == GL_GUILTY_CONTEXT_RESET     ? "by a fault of this program"
+                                : status == GL_INNOCENT_CONTEXT_RESET ? "by another program"
+                                                                      : "the driver does not say why"));
+}
+
+void Context::renew() {
+  const Platform platform = state_->platform;
+  const DeviceInfo device = state_->device;
+  state_.reset();  // one context per thread at a time
+  state_ = std::make_unique<State>(platform, device);
+  check(state_->egl.info().problem.empty(), "device {} ({}) was lost and gives no new context: {}",
+        device.index, device.renderer, state_->egl.info().problem);
 }
 
 }  // namespace qtrace::gpu

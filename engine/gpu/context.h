@@ -1,6 +1,8 @@
 // An OpenGL 4.5 core context without display, through EGL.
 #pragma once
 
+#include "engine/core/check.h"
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +22,12 @@ struct DeviceInfo {
 // Everything that EGL offers, usable or not.
 std::vector<DeviceInfo> list_devices();
 
+// The driver has given up the context: everything on the device is lost. A renewed context may work.
+class ContextLost : public Error {
+ public:
+  using Error::Error;
+};
+
 class Context {
  public:
   // `choice`: a device's index, a part of its renderer name, or empty: the first usable hardware device,
@@ -31,7 +39,11 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const DeviceInfo& device() const;
-  void finish() const;  // returns when all work is done
+  void finish() const;       // returns when all work is done
+  void check_alive() const;  // throws ContextLost after a reset of the device, where the driver tells of it
+
+  // A new context on the same device; no object of the old one may be left. Throws Error where there is none.
+  void renew();
 
  private:
   struct State;

@@ -41,6 +41,21 @@ std::string gl_string(GLenum name) {
   return text == nullptr ? "" : text;
 }
 
+// One that tells of resets of the device, where the driver knows such.
+EGLContext create_context(EGLDisplay display) {
+  const auto create = [display](std::initializer_list<EGLint> more) {
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       4,
+                                   EGL_CONTEXT_MINOR_VERSION,       5,
+                                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    attributes.insert(attributes.end(), more);
+    attributes.push_back(EGL_NONE);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+  };
+  const EGLContext telling =
+      create({EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  return telling != EGL_NO_CONTEXT ? telling : create({});
+}
+
 }  // namespace
 
 std::vector<Platform> list_platforms() {
@@ -86,14 +101,7 @@ void EglContext::open(const Platform& platform) {
     }
   }
   if (!eglBindAPI(EGL_OPENGL_API)) return fail_at("eglBindAPI");
-  constexpr std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                             4,
-                                             EGL_CONTEXT_MINOR_VERSION,
-                                             5,
-                                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                             EGL_NONE};
-  context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+  context_ = create_context(display_);
   if (context_ == EGL_NO_CONTEXT) return fail_at("eglCreateContext for OpenGL 4.5 core");
   if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) fail_at("eglMakeCurrent");
 }

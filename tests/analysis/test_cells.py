@@ -9,6 +9,7 @@ import unittest
 from support import ROOT, FolderTest
 
 from analysis.csv_file import read_csv
+from analysis.load import LoadError, load
 from analysis.statistics import estimate, signed_estimate
 
 BINARY = os.environ.get("QTRACE_BINARY")  # ctest sets it
@@ -19,7 +20,7 @@ SIGNED = ("psnr_db", "bias", "clamp_bias", "slope_mse", "slope_relmse")
 class CellsTest(FolderTest):
     def test_intervals_agree(self) -> None:
         config = {"name": "cells", "scene": str(ROOT / "configs/scenes/simple.glb"), "width": 8, "height": 8,
-                  "frames": 4, "reference": {"frames": 8},
+                  "frames": 4, "reference": {"frames": 8}, "baseline": "none",
                   "sweep": [{"nee": ["none", "one_ray"]}, {"seed": [1, 2, 3, 4]}]}
         (self.folder / "cells.json").write_text(json.dumps(config), encoding="utf-8")
         subprocess.run([BINARY, "run", "cells.json"], cwd=self.folder, check=True, capture_output=True)
@@ -43,6 +44,12 @@ class CellsTest(FolderTest):
                     self.assertLessEqual(abs(found[figure + name] - value), 1e-12 * scale, figure + name)
                     compared += 1
         self.assertGreater(compared, 2 * 4 * 12)
+        loaded = load(results)
+        self.assertEqual(list(loaded.cells.cell), list(cells.index))
+        self.assertEqual([(row.cell, row.baseline) for row in loaded.ratios.itertuples()], [("one_ray", "none")])
+        (results / "ratios.csv").unlink()
+        with self.assertRaisesRegex(LoadError, "names no baseline"):
+            load(results).ratios
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ import unittest
 from support import ROOT, FolderTest, relmse, write_results
 
 from analysis import csv_file
-from analysis.load import CONVERGENCE_COLUMNS, FRAMES_COLUMNS, SUMMARY_COLUMNS, LoadError, load
+from analysis.load import (CELLS_COLUMNS, CONVERGENCE_COLUMNS, FRAMES_COLUMNS, RATIOS_COLUMNS, SUMMARY_COLUMNS,
+                           LoadError, load)
 
 FIRST_RUN = "scene=simple,method=nee-two-rays,seed=1"
 
@@ -14,7 +15,7 @@ class ContractTest(unittest.TestCase):
     def test_every_column_used_is_one_that_the_program_writes(self) -> None:
         declared = "".join((ROOT / "experiments" / name).read_text(encoding="utf-8")
                            for name in ("records.cpp", "cell_columns.cpp", "ratio_columns.cpp"))
-        for column in {*SUMMARY_COLUMNS, *CONVERGENCE_COLUMNS, *FRAMES_COLUMNS, *csv_file.TEXT, *csv_file.BOOLEAN}:
+        for column in {*CELLS_COLUMNS, *RATIOS_COLUMNS, *SUMMARY_COLUMNS, *CONVERGENCE_COLUMNS, *FRAMES_COLUMNS, *csv_file.TEXT, *csv_file.BOOLEAN}:
             self.assertIn(f'"{column}"', declared)
 
 

@@ -38,7 +38,7 @@ def failures_of_runs(tree: Tree, cases: tuple[str, ...]) -> list[str]:
     if not summary.is_file():
         sys.exit(f"{', '.join(cases)}: no summary: {done.stderr}")
     with summary.open() as file:
-        rows = [row for row in csv.DictReader(file) if row["verdict"] != "pass"]
+        rows = [row for row in csv.DictReader(file) if row["verdict"] not in ("pass", "unseen")]
     summary.unlink()
     return [f"{row['axis:case']}, {row['axis:method']}: {row['verdict'] or row['status']}"
             + (f", {row['non_finite']} non-finite" if row["non_finite"] not in ("", "0") else "") for row in rows]

@@ -22,6 +22,9 @@ INSIDE = "bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessTha
 HAS_AREA = ("return twice_area > kMinRelativeHeight * longest && "
             "twice_area >= std::numeric_limits<float>::min();")
 
+# Nothing was found to take out of the others, or nothing that a verdict depends on: triangles without area (no ray is
+# on one side of all their edges, so that they are not met even where the loader keeps them), no light, environment
+# alone, one triangle, roughness 0.05, five million triangles.
 PROTECTIONS = [
     Protection("edges belong to their triangles", ("white furnace", "camera in geometry"), (Edit(
         TRAVERSE, INSIDE,
@@ -34,29 +37,18 @@ PROTECTIONS = [
     Protection("the power heuristic by a ratio, not by squares", ("grazing light",), (
         Edit(NEE, "return 1.0 / (1.0 + ratio * ratio);", "return pdf * pdf / (pdf * pdf + other * other);"),
         Edit(NEE, "  if (contribution == vec3(0.0)) return contribution;\n", ""))),
-    Protection("the end of a shadow ray by its light, not by a constant", ("tiny bright light",), (Edit(
-        "shaders/lights.glsl", "float offset = max(max(light_triangles[index].edge1.w, s.offset), OFFSET_FRACTION * t)",
-        "float offset = 1e-8"),)),
+    Protection("triangles are too flat by their shape, not by a size", ("tiny bright light",), (Edit(
+        "engine/scene/gltf_triangle.cpp", HAS_AREA,
+        "return kMinRelativeHeight > 0 && twice_area > 1e-4;"),)),
     Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001", "room, scaled 10,000"),
                (Edit(SURFACE, OFFSET, "s.offset = 1e-3;"),)),
     Protection("slivers are triangles", ("slivers",), (Edit(
         "engine/scene/gltf_triangle.cpp", "constexpr double kMinRelativeHeight = 1e-7;",
         "constexpr double kMinRelativeHeight = 1e-4;"),)),
-    Protection("triangles without area are dropped, and not met", ("triangles without area",), (
-        Edit("engine/scene/gltf_triangle.cpp", HAS_AREA, "return twice_area >= 0 * kMinRelativeHeight;"),
-        Edit(TRAVERSE, INSIDE, "bool inside = true;"))),
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
         "engine/scene/gltf.cpp", "  gltf::drop_duplicates(source, scene);\n", ""),)),
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
         "engine/scene/gltf_triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
-    Protection("GGX by a cross product", ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
-        "shaders/bsdf.glsl", "float k = alpha / (dot(c, c) + a * a);",
-        "float k = alpha / (1.0 - dot(n, h) * dot(n, h) + a * a);"),)),
-    Protection("no light samples without lights", ("no light", "environment alone"), (Edit(
-        "engine/tracer/shader_variant.cpp", "if (features.lights == 0) settings.nee",
-        "if (features.lights == 12345) settings.nee"),)),
-    Protection("a tree of one leaf", ("one triangle",), (Edit(
-        TRAVERSE, "searching = leaf == 0u && node != NO_NODE;", "searching = leaf == 0u && node != NO_NODE && node != 0u;"),)),
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
                (Edit("shaders/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
     Protection("visit counters stop at their limit", ("VisitCountersAtTheirLimitDoNotWrap",), (Edit(

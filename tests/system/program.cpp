@@ -69,21 +69,28 @@ Outcome run_qtrace(const std::vector<std::string>& arguments, const fs::path& wo
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out.file()), read_text(err.file())};
 }
 
-bool kill_qtrace_when(const std::vector<std::string>& arguments, const fs::path& working,
-                      const std::function<bool()>& ready) {
+std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::string>& arguments,
+                                          const fs::path& working, const std::function<bool()>& ready) {
   const Capture out, err;
   const pid_t child = start_qtrace(arguments, working, out, err);
   int status = 0;
   const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   bool is_ready = false;
   while (!is_ready && std::chrono::steady_clock::now() < latest) {
-    if (::waitpid(child, &status, WNOHANG) == child) return false;
+    if (::waitpid(child, &status, WNOHANG) == child) return std::nullopt;
     is_ready = ready();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  ::kill(child, SIGKILL);
+  ::kill(child, is_ready ? signal : SIGKILL);
   ::waitpid(child, &status, 0);
-  return is_ready && WIFSIGNALED(status);
+  if (!is_ready) return std::nullopt;
+  return Outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out.file()), read_text(err.file())};
+}
+
+bool kill_qtrace_when(const std::vector<std::string>& arguments, const fs::path& working,
+                      const std::function<bool()>& ready) {
+  const auto outcome = signal_qtrace_when(SIGKILL, arguments, working, ready);
+  return outcome && outcome->exit_code == -1;
 }
 
 std::string read_text(const fs::path& file) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,13 @@ struct Outcome {
 // Runs QTRACE_BINARY with these arguments in the folder `working`, without a shell.
 Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesystem::path& working);
 
-// Starts the same and kills it (SIGKILL) as soon as `ready` says so. Returns whether it was still running
+// Starts the same and sends it a signal as soon as `ready` says so. Nothing where it had ended before, or was not
+// ready within a minute.
+std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::string>& arguments,
+                                          const std::filesystem::path& working,
+                                          const std::function<bool()>& ready);
+
+// The same with SIGKILL. Returns whether it was still running
 // then; false, too, where it was not ready within a minute.
 bool kill_qtrace_when(const std::vector<std::string>& arguments, const std::filesystem::path& working,
                       const std::function<bool()>& ready);

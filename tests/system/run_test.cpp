@@ -77,7 +77,7 @@ TEST_F(RunProgram, TablesAndManifestsAgree) {
 
 TEST_F(RunProgram, TheSameSeedGivesTheSameBitsAndEarlierResultsAreKept) {
   ASSERT_EQ(run("twice", kMethods).exit_code, 0);
-  const Outcome second = run("twice", kMethods);
+  const Outcome second = run("twice", kMethods, {"--fresh"});
   ASSERT_EQ(second.exit_code, 0);
   EXPECT_TRUE(contains(second.err, "results/twice: earlier results are kept as results/twice.1"))
       << second.err;

@@ -37,7 +37,8 @@ TEST(Timing, ASlowWriterChangesNoTime) {
   Progress progress(Progress::Mode::quiet);
   SceneStore scenes;
   const LoadedScene& scene = scenes.load(experiment.scene_file(run));
-  ReferenceStore references(test::device(), folder.path(), progress);
+  const Stopper stopper;
+  ReferenceStore references(test::device(), folder.path(), stopper, progress);
   const auto reference = [&] {
     return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
   };
@@ -46,9 +47,17 @@ TEST(Timing, ASlowWriterChangesNoTime) {
     return std::make_unique<SlowFiles>(place, metadata);
   };
   const auto start = std::chrono::steady_clock::now();
-  const RunRecord record = execute_run(
-      {test::device(), experiment, run, scene, scene.hash, reference, folder / "run", "slow", make_files},
-      progress);
+  const RunRecord record = execute_run({.context = test::device(),
+                                        .experiment = experiment,
+                                        .run = run,
+                                        .scene = scene,
+                                        .shown = scene,
+                                        .get_reference = reference,
+                                        .folder = folder / "run",
+                                        .label = "slow",
+                                        .make_files = make_files},
+                                       progress)
+                               .record;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   ASSERT_EQ(record.status, "finished") << record.reason;
   ASSERT_EQ(record.snapshots.size(), 3U);

@@ -88,6 +88,7 @@ TEST(Expectation, BlackImagesCanBeUnseen) {
   EXPECT_EQ(verdict->word, "unseen");
   EXPECT_EQ(verdict->reason, "");
   EXPECT_EQ(judge(expect, flat(0, 0), flat(1), 1)->word, "fail");
+  EXPECT_EQ(judge(expect, flat(0, 0), flat(0, 0), 0)->word, "fail");  // the light is lost in both
 }
 
 TEST(Expectation, WhatIsNotFiniteFails) {

@@ -100,16 +100,5 @@ TEST(Manifest, ScenesWithoutLightAreWarnedOf) {
   EXPECT_NE(light_warning(loaded, config), "");
 }
 
-TEST(Manifest, EarlierResultsAreMovedToTheNextFreeName) {
-  const tests::TempFolder folder;
-  EXPECT_FALSE(move_aside(folder / "a").has_value());
-  folder.write("a/x", "1");
-  EXPECT_EQ(move_aside(folder / "a")->filename(), "a.1");
-  folder.write("a/x", "2");
-  EXPECT_EQ(move_aside(folder / "a")->filename(), "a.2");
-  EXPECT_EQ(folder.read("a.1/x"), "1");
-  EXPECT_EQ(folder.read("a.2/x"), "2");
-}
-
 }  // namespace
 }  // namespace qtrace::experiments

@@ -63,7 +63,7 @@ class SlurmScripts : public testing::Test {
   // The exit code of the array's script.
   int run_job(const std::string& signal) const {
     folder_.write("job.sbatch", scripts().at(1).text);
-    return run_command({"bash", "-c", kJob, "bash", folder_.path().string(), signal}).exit_code;
+    return run_program({"bash", "-c", kJob, "bash", folder_.path().string(), signal}).exit_code;
   }
 
   bool asked_for_another_turn() const { return fs::exists(folder_ / "scontrol_words"); }

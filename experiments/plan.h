@@ -1,0 +1,42 @@
+// Which runs are done, in which order, and what that takes.
+#pragma once
+
+#include "experiments/experiment.h"
+#include "experiments/reference.h"
+
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// A run to be done: its place in the config, its turn in the order of execution, from 1.
+struct Turn {
+  std::size_t place = 0;
+  int order = 0;
+  int repetition = 0;  // how many runs of its cell come before
+};
+
+// All runs: the first seed of every cell, then the second of every cell, so that a machine that slows down or
+// speeds up treats all cells alike.
+std::vector<Turn> execution_order(const Experiment& experiment);
+
+// The turns that the choices leave. Throws Error where no run's id fits the pattern.
+std::vector<Turn> chosen_turns(const Experiment& experiment, const RunChoices& choices);
+
+// A turn, or a part of one: up to a frame.
+struct Step {
+  Turn turn;
+  int until = 0;
+};
+
+// In rounds, the first runs of all cells grow together: to an eighth, a quarter, a half (rounded up to a
+// snapshot) and the whole of their frames, so that whenever time is up every cell has about as much as any
+// other. Further repetitions, and all runs without rounds, are done in one go.
+std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, bool in_rounds);
+
+// Each reference that these runs need, once, and as good as any of them wishes it: its length shall not
+// depend on the order of the runs.
+std::vector<ReferenceSpec> needed_references(const Experiment& experiment, const std::vector<Turn>& turns,
+                                             SceneStore& scenes);
+
+}  // namespace qtrace::experiments
