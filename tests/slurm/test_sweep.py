@@ -98,9 +98,21 @@ class SweepTest(unittest.TestCase):
         folder = self.folder / out / "night/slurm"
         return "\n".join(f"--- {file.name}\n{file.read_text()}" for file in sorted(folder.glob("*.log")))
 
-    def checkpoints(self, out: str, shard: int) -> bool:
-        """Whether the shard is in the middle of a run."""
-        return bool(self.shard_processes(out, shard)) and any((self.folder / out).glob("night/*/checkpoint.state"))
+    def runs_of(self, shard: int) -> list[str]:
+        listed = self.qtrace("run", "night.json", "--shard", f"{shard}/{SHARDS}", "--list").stdout.split()
+        self.assertEqual(len(listed), RUNS // SHARDS)
+        return listed
+
+    def wait_for_checkpoint(self, out: str, shard: int) -> None:
+        """Until the shard is in the middle of a run."""
+        files = [self.folder / out / "night" / run / "checkpoint.state" for run in self.runs_of(shard)]
+        self.cluster.wait(lambda: any(file.exists() for file in files) and bool(self.shard_processes(out, shard)),
+                          f"a checkpoint of shard {shard}")
+
+    def resumed_runs(self, out: str, shard: int) -> list[str]:
+        manifests = {run: json.loads((self.folder / out / "night" / run / "manifest.json").read_text())
+                     for run in self.runs_of(shard)}
+        return [run for run, manifest in manifests.items() if manifest.get("resumed_after_frame", 0) > 0]
 
     def shard_processes(self, out: str, shard: int) -> list[int]:
         return processes_of(str(self.folder / out), f"{shard}/{SHARDS}")
@@ -132,17 +144,17 @@ class SweepTest(unittest.TestCase):
         out = "rough"
         _, shards, merge = self.submit(out)
         # The program of one task is killed; its job has failed, and its user wants it again.
-        self.cluster.wait(lambda: self.checkpoints(out, 1), "a checkpoint of shard 1")
+        self.wait_for_checkpoint(out, 1)
         os.kill(self.shard_processes(out, 1)[0], signal.SIGKILL)
         self.cluster.wait(lambda: self.cluster.job(f"{shards}_1")["JobState"] == "FAILED", "a failed task")
         self.assertEqual(self.cluster.job(f"{shards}_1")["ExitCode"], "137:0")
         self.cluster.command("scontrol", "requeue", f"{shards}_1")
         # The time of the next is up.
-        self.cluster.wait(lambda: self.checkpoints(out, 2), "a checkpoint of shard 2")
+        self.wait_for_checkpoint(out, 2)
         self.cluster.command("scancel", "--batch", "--signal=USR1", f"{shards}_2")
         self.cluster.wait(lambda: self.cluster.job(f"{shards}_2")["Restarts"] == "1", "shard 2 back in the queue")
         # Something more important needs both processors.
-        self.cluster.wait(lambda: self.checkpoints(out, 3), "a checkpoint of shard 3")
+        self.wait_for_checkpoint(out, 3)
         self.cluster.command("sbatch", "--partition=urgent", "--ntasks=2", "--chdir", str(self.cluster.folder),
                              "--output=urgent.log", "--wrap", "sleep 1")
         self.cluster.wait(lambda: self.cluster.job(f"{shards}_3")["Restarts"] == "1", "shard 3 preempted")
@@ -152,12 +164,15 @@ class SweepTest(unittest.TestCase):
             task = self.cluster.job(f"{shards}_{shard}")
             self.assertEqual(task["JobState"], "COMPLETED", self.logs(out))
             self.assertGreaterEqual(int(task["Restarts"]), 1, shard)
+            self.assertTrue(self.resumed_runs(out, shard), self.logs(out))
+        for shard in (2, 3):  # were asked to end, once
+            self.assertIn("interrupted by SIGTERM", self.log(out, f"shard-{shard}"))
         self.assert_same_results(out)
 
     def test_what_is_cancelled_stays_so_until_it_is_submitted_again(self) -> None:
         out = "cancelled"
         _, shards, merge = self.submit(out)
-        self.cluster.wait(lambda: self.checkpoints(out, 1), "a checkpoint of shard 1")
+        self.wait_for_checkpoint(out, 1)
         self.cluster.command("scancel", f"{shards}_1")
         self.assertEqual(self.wait_for_end(f"{shards}_1")["JobState"], "CANCELLED")
         # The merge says what is missing.
@@ -167,6 +182,7 @@ class SweepTest(unittest.TestCase):
 
         _, _, merge = self.submit(out)
         self.assertEqual(self.wait_for_end(merge)["ExitCode"], "0:0", self.logs(out))
+        self.assertTrue(self.resumed_runs(out, 1), self.logs(out))
         self.assert_same_results(out)
 
     def test_nothing_is_rendered_without_references(self) -> None:
