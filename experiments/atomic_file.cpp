@@ -61,20 +61,49 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
   if (!flush(temporary_)) fail_to_write(target_, std::strerror(errno));
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) fail_to_write(target_, error.message());
-  temporary_.clear();
+  rename();
   // The rename itself; some file systems cannot flush folders, and the content is safe already.
   flush(target_.parent_path().empty() ? fs::path(".") : target_.parent_path());
 }
 
-void write_file(const fs::path& target, std::string_view content) {
-  AtomicFile file(target);
-  std::ofstream stream(file.temporary(), std::ios::binary | std::ios::trunc);
+void AtomicFile::rename() {
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) fail_to_write(target_, error.message());
+  temporary_.clear();
+}
+
+void write_bytes(const fs::path& file, std::string_view content) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
-  if (!stream.good()) fail_to_write(target, std::strerror(errno));
+  if (!stream.good()) fail_to_write(file, std::strerror(errno));
+}
+
+void flush_to_disk(const std::vector<fs::path>& files) {
+  constexpr std::size_t kFew = 2;  // the whole file system may have more to flush than these files
+  if (files.size() > kFew) {
+    const int descriptor = ::open(files.front().c_str(), O_RDONLY | O_CLOEXEC);
+    const bool flushed = descriptor >= 0 && ::syncfs(descriptor) == 0;
+    const int error = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    if (!flushed) fail_to_write(files.front(), std::strerror(error));
+    return;
+  }
+  for (const fs::path& file : files) {
+    if (!flush(file)) fail_to_write(file, std::strerror(errno));
+  }
+}
+
+void write_file(const fs::path& target, std::string_view content) {
+  AtomicFile file(target);
+  try {
+    write_bytes(file.temporary(), content);
+  } catch (const DiskFull&) {
+    fail_to_write(target, std::strerror(ENOSPC));
+  } catch (const Error&) {
+    fail_to_write(target, std::strerror(errno));
+  }
   file.commit();
 }
 

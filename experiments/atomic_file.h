@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace qtrace::experiments {
 
@@ -28,12 +29,20 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  void commit();  // throws Error that names the target
+  // Each throws Error that names the target.
+  void commit();  // flushes the content to the disk and renames the file
+  void rename();  // of content that was flushed before
 
  private:
   std::filesystem::path target_;
   std::filesystem::path temporary_;
 };
+
+// Writes a file as it is, neither whole nor safe. Throws Error that names it.
+void write_bytes(const std::filesystem::path& file, std::string_view content);
+
+// Waits until the content of these files of one file system is on the disk. Throws Error that names one.
+void flush_to_disk(const std::vector<std::filesystem::path>& files);
 
 // Replaces the file's content. Throws Error that names it, and then the old content is still there.
 void write_file(const std::filesystem::path& target, std::string_view content);

@@ -165,6 +165,7 @@ class Work {
                             .shown = shown_by(run),
                             .get_reference = [&] { return reference_of(run); },
                             .folder = folder_.path() / run.id,
+                            .files = files_,
                             .label = label,
                             .stopper = &stopper_,
                             .until = step.until,
@@ -188,6 +189,7 @@ class Work {
   // Returns whether all is done. A shard leaves the files about all runs to the merge.
   bool close(const std::string& stopped) {
     if (!choices_.shard.is_whole()) {
+      files_.flush();
       return std::ranges::all_of(turns_, [this](const Turn& turn) {
         const RunRecord* record = journal_.find(turn.place);
         return record != nullptr && met_expectation(*record);
@@ -200,6 +202,7 @@ class Work {
       references_.note(*spec, shown_by(run), experiment_.folder());
     }
     try {
+      files_.flush();  // images are read again
       journal_.close(stopped, progress_);
     } catch (const Error& error) {
       if (stopped.empty()) throw;
@@ -221,7 +224,8 @@ class Work {
   std::vector<ReferenceSpec> needed_;
   ReferenceStore references_;
   Journal journal_;
-  Watchdog watchdog_;
+  FileQueue files_;
+  Watchdog watchdog_;  // ends first: it may put files
 };
 
 }  // namespace

@@ -13,21 +13,6 @@
 namespace qtrace::experiments {
 namespace {
 
-void write_planes(const std::filesystem::path& file, const ExrImage& image) {
-  Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  for (const auto& [key, text] : image.metadata) header.insert(key, Imf::StringAttribute(text));
-  Imf::FrameBuffer buffer;
-  ExrImage copy = image;  // OpenEXR takes writable memory even for output
-  for (auto& [name, plane] : copy.channels) {
-    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    buffer.insert(name, plane_slice(plane, header.dataWindow(), static_cast<std::size_t>(image.width)));
-  }
-  Imf::OutputFile output(file.c_str(), header);
-  output.setFrameBuffer(buffer);
-  output.writePixels(image.height);
-}
-
 ExrImage read_planes(const std::filesystem::path& file) {
   Imf::InputFile input(file.c_str());
   check(input.isComplete(), "the file is truncated");
@@ -58,10 +43,25 @@ ExrImage read_planes(const std::filesystem::path& file) {
 
 }  // namespace
 
+void write_exr_planes(const std::filesystem::path& file, const ExrImage& image) {
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [key, text] : image.metadata) header.insert(key, Imf::StringAttribute(text));
+  Imf::FrameBuffer buffer;
+  ExrImage copy = image;  // OpenEXR takes writable memory even for output
+  for (auto& [name, plane] : copy.channels) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    buffer.insert(name, plane_slice(plane, header.dataWindow(), static_cast<std::size_t>(image.width)));
+  }
+  Imf::OutputFile output(file.c_str(), header);
+  output.setFrameBuffer(buffer);
+  output.writePixels(image.height);
+}
+
 void write_exr(const std::filesystem::path& file, const ExrImage& image) {
   AtomicFile target(file);
   try {
-    write_planes(target.temporary(), image);
+    write_exr_planes(target.temporary(), image);
   } catch (const std::exception& error) {
     fail_to_write(file, error.what());
   }

@@ -20,6 +20,9 @@ struct ExrImage {
   ExrMetadata metadata;
 };
 
+// Writes the file as it is, neither whole nor safe. Throws std::exception.
+void write_exr_planes(const std::filesystem::path& file, const ExrImage& image);
+
 // Replaces the file whole or not at all. Throws Error that names it.
 void write_exr(const std::filesystem::path& file, const ExrImage& image);
 

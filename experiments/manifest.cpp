@@ -57,8 +57,10 @@ std::string device_text(const gpu::DeviceInfo& device) {
                      device.software ? "software: computes on the CPU" : "hardware");
 }
 
-void write_json(const std::filesystem::path& file, const Json& json) {
-  write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
+
+void write_json(const std::filesystem::path& file, const Json& json) { write_file(file, json_text(json)); }
 
 }  // namespace qtrace::experiments

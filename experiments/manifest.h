@@ -21,7 +21,9 @@ std::string timing_note();  // one sentence: what the times hold and what they l
 // "llvmpipe ..., OpenGL ..., software: computes on the CPU".
 std::string device_text(const gpu::DeviceInfo& device);
 
-// Indented, with a final line break; whole or not at all.
+std::string json_text(const Json& json);  // indented, with a final line break
+
+// The same as a file; whole or not at all.
 void write_json(const std::filesystem::path& file, const Json& json);
 
 }  // namespace qtrace::experiments

@@ -54,16 +54,21 @@ bool read_shape(const std::string& text, std::size_t& rows, std::size_t& columns
 }  // namespace
 
 template <class T>
-void write_npy(const std::filesystem::path& file, std::size_t columns, std::span<const T> values) {
-  check(columns > 0 && values.size() % columns == 0, "{}: {} values do not fill rows of {}", file.string(),
-        values.size(), columns);
+std::string npy_text(std::size_t columns, std::span<const T> values) {
+  check(columns > 0 && values.size() % columns == 0, "{} values do not fill rows of {}", values.size(),
+        columns);
   const std::string header = header_text(kType<T>, values.size() / columns, columns);
   const auto length = static_cast<std::uint16_t>(header.size());
   std::string content(kMagic);
   content.append(reinterpret_cast<const char*>(&length), kLengthBytes);
   content += header;
   content.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-  write_file(file, content);
+  return content;
+}
+
+template <class T>
+void write_npy(const std::filesystem::path& file, std::size_t columns, std::span<const T> values) {
+  write_file(file, npy_text(columns, values));
 }
 
 template <class T>
@@ -94,6 +99,8 @@ NpyTable<T> read_npy(const std::filesystem::path& file) {
   return table;
 }
 
+template std::string npy_text(std::size_t, std::span<const float>);
+template std::string npy_text(std::size_t, std::span<const std::uint32_t>);
 template void write_npy(const std::filesystem::path&, std::size_t, std::span<const float>);
 template void write_npy(const std::filesystem::path&, std::size_t, std::span<const std::uint32_t>);
 template NpyTable<float> read_npy(const std::filesystem::path&);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace qtrace::experiments {
@@ -18,7 +19,11 @@ struct NpyTable {
   std::vector<T> values;  // rows * columns
 };
 
-// Replaces the file whole or not at all. Throws Error that names it.
+// The file's content: rows of `columns` values. Throws Error where the values do not fill them.
+template <class T>
+std::string npy_text(std::size_t columns, std::span<const T> values);
+
+// Replaces the file whole or not at all. Throws Error.
 template <class T>
 void write_npy(const std::filesystem::path& file, std::size_t columns, std::span<const T> values);
 

@@ -39,7 +39,7 @@ class Execution {
   Execution(const RunJob& job, RunRecord& record)
       : job_(job),
         record_(record),
-        files_(job.make_files(job.folder, metadata())),
+        files_(job.make_files(job.folder, metadata(), job.files)),
         store_(job.folder, identity_of(job)),
         manifest_(first_manifest(job, record)) {}
 
@@ -93,9 +93,9 @@ class Execution {
     manifest_["gpu_elapsed_s"] = record_.gpu_elapsed_s();
     manifest_["non_finite"] = record_.totals().non_finite;
     files_->write_tables(record_);
-    if (status != kPartial) store_.write_record(record_);
+    if (status != kPartial) store_.write_record(job_.files, record_);
     files_->write_manifest(manifest_);
-    if (status == "finished") store_.remove_checkpoint();
+    if (status == "finished") store_.remove_checkpoint(job_.files);
   }
 
  private:
@@ -151,12 +151,13 @@ class Execution {
     job_.watchdog->arm(config().frame_timeout_s, [this, frame] {
       close("failed", fmt::format("frame {} took longer than frame_timeout_s, {:g} s", frame,
                                   config().frame_timeout_s));
+      job_.files.flush();
       job_.give_up();
     });
   }
 
   void save_checkpoint(const Tracer& tracer) {
-    store_.write_checkpoint(record_, tracer.state());
+    store_.write_checkpoint(job_.files, record_, tracer.state());
     manifest_["checkpoint_frame"] = frames();
     files_->write_manifest(manifest_);
   }
@@ -271,8 +272,9 @@ class Execution {
 
 }  // namespace
 
-std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata) {
-  return std::make_unique<RunFiles>(folder, metadata);
+std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata,
+                                         FileQueue& files) {
+  return std::make_unique<RunFiles>(folder, metadata, files);
 }
 
 double run_work(const RunConfig& config) {

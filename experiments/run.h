@@ -17,7 +17,8 @@
 
 namespace qtrace::experiments {
 
-std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata);
+std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata,
+                                         FileQueue& files);
 
 struct RunJob {
   const gpu::Context& context;
@@ -27,6 +28,7 @@ struct RunJob {
   const LoadedScene& shown;  // by its reference
   std::function<std::shared_ptr<const Reference>()> get_reference;
   std::filesystem::path folder;      // made here
+  FileQueue& files;                  // what writes into it
   std::string label;                 // for the progress line
   const Stopper* stopper = nullptr;  // null: the run is never interrupted
   int until = 0;                     // a frame to stop after, to go on later; 0: the last
@@ -34,8 +36,8 @@ struct RunJob {
   // Called on the watchdog's thread when a frame has taken too long and the run's files say so; shall not
   // return.
   std::function<void()> give_up = {};
-  std::function<std::unique_ptr<RunFiles>(const std::filesystem::path&, const ExrMetadata&)> make_files =
-      make_run_files;
+  std::function<std::unique_ptr<RunFiles>(const std::filesystem::path&, const ExrMetadata&, FileQueue&)>
+      make_files = make_run_files;
 };
 
 // Pixels times frames, the unit of progress.

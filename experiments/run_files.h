@@ -3,6 +3,7 @@
 
 #include "engine/tracer/qtable.h"
 #include "experiments/exr.h"
+#include "experiments/file_queue.h"
 #include "experiments/json.h"
 #include "experiments/records.h"
 
@@ -15,8 +16,8 @@ std::filesystem::path snapshot_file(const std::filesystem::path& folder, int fra
 
 class RunFiles {
  public:
-  // Makes the folder. `metadata` goes into every image.
-  RunFiles(std::filesystem::path folder, ExrMetadata metadata);
+  // Makes the folder. `metadata` goes into every image. All is written by the queue, which must live longer.
+  RunFiles(std::filesystem::path folder, ExrMetadata metadata, FileQueue& files);
   virtual ~RunFiles() = default;
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
@@ -32,7 +33,10 @@ class RunFiles {
 
  private:
   std::filesystem::path folder_;
+  void put(const char* name, std::string content) const;
+
   ExrMetadata metadata_;
+  FileQueue& files_;
 };
 
 }  // namespace qtrace::experiments

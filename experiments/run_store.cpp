@@ -1,5 +1,6 @@
 #include "experiments/run_store.h"
 
+#include "experiments/atomic_file.h"
 #include "experiments/hash.h"
 #include "experiments/record_json.h"
 #include "experiments/reference.h"
@@ -52,8 +53,13 @@ std::string run_identity(const RunConfig& config, const std::string& scene_hash,
   return hash_text(canonical_text(json));
 }
 
-void RunStore::write_checkpoint(const RunRecord& record, TracerState state) const {
-  write_state(folder_ / kCheckpoint, {{{"identity", identity_}, {"record", pack(record)}}, std::move(state)});
+void RunStore::write_checkpoint(FileQueue& files, const RunRecord& record, TracerState state) const {
+  std::size_t bytes = 0;
+  for (const SavedBuffer& buffer : state.buffers) bytes += buffer.bytes.size();
+  StoredState stored{{{"identity", identity_}, {"record", pack(record)}}, std::move(state)};
+  files.put(folder_ / kCheckpoint, bytes, [kept = std::move(stored)](const fs::path& temporary) {
+    write_bytes(temporary, state_text(kept));
+  });
 }
 
 std::optional<Checkpoint> RunStore::read_checkpoint(const Complaint& complain) const {
@@ -65,13 +71,12 @@ std::optional<Checkpoint> RunStore::read_checkpoint(const Complaint& complain) c
   return checkpoint;
 }
 
-void RunStore::remove_checkpoint() const {
-  std::error_code ignored;
-  fs::remove(folder_ / kCheckpoint, ignored);
+void RunStore::remove_checkpoint(FileQueue& files) const {
+  if (fs::exists(folder_ / kCheckpoint)) files.remove(folder_ / kCheckpoint);
 }
 
-void RunStore::write_record(const RunRecord& record) const {
-  write_state(folder_ / kRecord, {{{"identity", identity_}, {"record", pack(record)}}, {}});
+void RunStore::write_record(FileQueue& files, const RunRecord& record) const {
+  files.put(folder_ / kRecord, state_text({{{"identity", identity_}, {"record", pack(record)}}, {}}));
 }
 
 std::optional<RunRecord> RunStore::read_record(const Run& run, const Complaint& complain) const {

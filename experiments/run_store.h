@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/context.h"
 #include "engine/tracer/tracer_state.h"
+#include "experiments/file_queue.h"
 #include "experiments/records.h"
 
 #include <filesystem>
@@ -30,12 +31,13 @@ class RunStore {
   RunStore(std::filesystem::path folder, std::string identity)
       : folder_(std::move(folder)), identity_(std::move(identity)) {}
 
-  void write_checkpoint(const RunRecord& record, TracerState state) const;  // checkpoint.state
+  void write_checkpoint(FileQueue& files, const RunRecord& record,
+                        TracerState state) const;  // checkpoint.state
   std::optional<Checkpoint> read_checkpoint(const Complaint& complain) const;
-  void remove_checkpoint() const;
+  void remove_checkpoint(FileQueue& files) const;
 
   // record.state: of a run that ended, whatever its status.
-  void write_record(const RunRecord& record) const;
+  void write_record(FileQueue& files, const RunRecord& record) const;
   // Nothing unless the manifest says that the run ended. `run`: what is not in the file.
   std::optional<RunRecord> read_record(const Run& run, const Complaint& complain) const;
 

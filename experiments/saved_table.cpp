@@ -36,7 +36,8 @@ std::set<int> saved_frames(const fs::path& folder) {
 
 }  // namespace
 
-void write_cells(const fs::path& folder, const std::vector<CellState>& states, const glm::dvec3& origin) {
+void write_cells(FileQueue& files, const fs::path& folder, const std::vector<CellState>& states,
+                 const glm::dvec3& origin) {
   std::vector<float> rows;
   rows.reserve(states.size() * kCellColumns);
   for (const CellState& s : states) {
@@ -44,12 +45,12 @@ void write_cells(const fs::path& folder, const std::vector<CellState>& states, c
     rows.insert(rows.end(), {p.x, p.y, p.z, s.normal.x, s.normal.y, s.normal.z,
                              s.object == kNoObject ? -1.0F : static_cast<float>(s.object)});
   }
-  write_npy<float>(folder / "cells.npy", kCellColumns, rows);
+  files.put(folder / "cells.npy", npy_text<float>(kCellColumns, rows));
 }
 
-void write_table(const fs::path& folder, int frame, const QTable& table) {
-  write_npy<float>(table_file(folder, kValues, frame), table.columns(), table.values());
-  write_npy<std::uint32_t>(table_file(folder, kVisits, frame), table.columns(), table.visits());
+void write_table(FileQueue& files, const fs::path& folder, int frame, const QTable& table) {
+  files.put(table_file(folder, kValues, frame), npy_text<float>(table.columns(), table.values()));
+  files.put(table_file(folder, kVisits, frame), npy_text<std::uint32_t>(table.columns(), table.visits()));
 }
 
 SavedTable read_saved_table(const fs::path& folder, std::optional<int> frame) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/tracer/qtable.h"
+#include "experiments/file_queue.h"
 #include "experiments/npy.h"
 
 #include <filesystem>
@@ -11,12 +12,12 @@
 namespace qtrace::experiments {
 
 // cells.npy: a row per cell with position x, y, z, normal x, y, z and object (-1: several).
-void write_cells(const std::filesystem::path& folder, const std::vector<CellState>& states,
+void write_cells(FileQueue& files, const std::filesystem::path& folder, const std::vector<CellState>& states,
                  const glm::dvec3& origin);
 
 // q_values_000064.npy and q_visits_000064.npy: a row per cell with a column per direction bin, then one per
 // learned light (shaders/table.glsl).
-void write_table(const std::filesystem::path& folder, int frame, const QTable& table);
+void write_table(FileQueue& files, const std::filesystem::path& folder, int frame, const QTable& table);
 
 struct SavedTable {
   int frame = 0;

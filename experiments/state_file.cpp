@@ -35,10 +35,14 @@ StoredState from_json(const Json& json) {
 
 }  // namespace
 
-void write_state(const std::filesystem::path& file, const StoredState& stored) {
+std::string state_text(const StoredState& stored) {
   std::string content;
   Json::to_cbor(to_json(stored), content);
-  write_file(file, hash_text(content) + '\n' + content);
+  return hash_text(content) + '\n' + content;
+}
+
+void write_state(const std::filesystem::path& file, const StoredState& stored) {
+  write_file(file, state_text(stored));
 }
 
 StoredState read_state(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include "experiments/json.h"
 
 #include <filesystem>
+#include <string>
 
 namespace qtrace::experiments {
 
@@ -13,6 +14,8 @@ struct StoredState {
   Json about;  // whatever the writer needs besides
   TracerState state;
 };
+
+std::string state_text(const StoredState& stored);  // the file's content
 
 // Replaces the file whole or not at all. Throws Error that names it.
 void write_state(const std::filesystem::path& file, const StoredState& stored);

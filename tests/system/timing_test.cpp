@@ -43,8 +43,10 @@ TEST(Timing, ASlowWriterChangesNoTime) {
     return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
   };
   reference();
-  const auto make_files = [](const std::filesystem::path& place, const ExrMetadata& metadata) {
-    return std::make_unique<SlowFiles>(place, metadata);
+  FileQueue files;
+  const auto make_files = [](const std::filesystem::path& place, const ExrMetadata& metadata,
+                             FileQueue& queue) {
+    return std::make_unique<SlowFiles>(place, metadata, queue);
   };
   const auto start = std::chrono::steady_clock::now();
   const RunRecord record = execute_run({.context = test::device(),
@@ -54,6 +56,7 @@ TEST(Timing, ASlowWriterChangesNoTime) {
                                         .shown = scene,
                                         .get_reference = reference,
                                         .folder = folder / "run",
+                                        .files = files,
                                         .label = "slow",
                                         .make_files = make_files},
                                        progress)
