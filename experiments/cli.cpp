@@ -6,6 +6,7 @@
 #include "experiments/rerun.h"
 #include "experiments/run_command.h"
 #include "experiments/status.h"
+#include "experiments/submit_command.h"
 #include "experiments/text_table.h"
 #include "experiments/version.h"
 
@@ -90,6 +91,8 @@ int dispatch(int argc, const char* const* argv) {
   app.set_version_flag("--version", software());
   RunOptions options;
   add_run_command(app, options);
+  SubmitOptions submit_options;
+  CLI::App* submitted = add_submit_command(app, submit_options);
   InspectOptions inspect_options;
   CLI::App* inspect = add_inspect_command(app, inspect_options);
   CompareOptions compare_options;
@@ -112,6 +115,10 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (compare->parsed()) {
     fmt::print("{}", compare_files(compare_options));
+    return 0;
+  }
+  if (submitted->parsed()) {
+    fmt::print("{}", submit(submit_options));
     return 0;
   }
   if (inspect->parsed()) {
