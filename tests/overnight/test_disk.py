@@ -1,5 +1,6 @@
 """A disk that is full at random moments: a clear message, nothing damaged, and on it goes when there is room again."""
 
+import contextlib
 import os
 import random
 import subprocess
@@ -18,12 +19,11 @@ SIZE_MB = 24
 
 def fill(file: Path) -> None:
     """Takes all that is left."""
-    with file.open("wb") as stream:
+    with contextlib.suppress(OSError), file.open("wb", buffering=0) as stream:
         block = 1 << 20
         while block >= 512:
             try:
-                stream.write(b"\\0" * block)
-                stream.flush()
+                stream.write(bytes(block))
             except OSError:
                 block //= 2
 

@@ -14,6 +14,7 @@ from sweep import CHECKPOINT_S, command, differences, run, unreadable, write_con
 
 KILLS = int(os.environ.get("QTRACE_KILLS", "100"))
 SEED = 7
+WRITING_S = 1.0  # what a checkpoint may take on a busy machine, and a process to begin
 
 
 class KillTest(unittest.TestCase):
@@ -39,31 +40,31 @@ class KillTest(unittest.TestCase):
                         self.assertEqual(code, 0)
                         break
                     except subprocess.TimeoutExpired:
+                        killed = time.time()
                         process.send_signal(signal.SIGKILL)
                         process.wait()
                         kills += 1
                     results = folder / "results" / f"killed{sweeps}"
                     self.assertEqual(unreadable(results) if results.is_dir() else [], [])
-                    most_lost = max(most_lost, lost_seconds(results))
+                    if results.is_dir():
+                        most_lost = max(most_lost, lost_seconds(results, killed))
                 self.assertEqual(differences(folder / "results/whole", folder / f"results/killed{sweeps}"), [])
-                self.assertEqual(list((folder / f"results/killed{sweeps}").rglob("*.state")).__len__(), 6)
-            print(f"{kills} kills in {sweeps} sweeps of {whole_s:.1f} s; largest time between the checkpoint and the "
-                  f"last frame that a killed run's own files tell of: {most_lost:.2f} s (checkpoint_s {CHECKPOINT_S})")
+                self.assertEqual(list((folder / f"results/killed{sweeps}").rglob("checkpoint.state")), [])
+            print(f"{kills} kills in {sweeps} sweeps of {whole_s:.1f} s; at most {most_lost:.2f} s between a run's last "
+                  f"checkpoint and its end (checkpoint_s {CHECKPOINT_S})")
+            self.assertLess(most_lost, CHECKPOINT_S + WRITING_S)
 
 
-def lost_seconds(results: Path) -> float:
-    """Render time in frames.csv of the run that was killed, after the frame of its checkpoint."""
+def lost_seconds(results: Path, killed: float) -> float:
+    """Time from the last checkpoint to the kill, of the run that was going on: all that it may have rendered since."""
     lost = 0.0
     for manifest in results.glob("*/manifest.json"):
-        content = json.loads(manifest.read_text(encoding="utf-8"))
-        if content["status"] != "running":
+        checkpoint = manifest.with_name("checkpoint.state")
+        if json.loads(manifest.read_text(encoding="utf-8"))["status"] != "running" or not checkpoint.is_file():
             continue
-        frames = manifest.with_name("frames.csv")
-        if not frames.is_file():
-            continue
-        lines = frames.read_text(encoding="utf-8").splitlines()[1:]
-        after = lines[content.get("checkpoint_frame", 0):]
-        lost = max(lost, sum(float(line.split(",")[2]) for line in after) / 1e3)
+        # A process that has gone on with it writes its manifest first.
+        since = max(checkpoint.stat().st_mtime, manifest.stat().st_mtime)
+        lost = max(lost, killed - since)
     return lost
 
 
