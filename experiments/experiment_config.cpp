@@ -1,6 +1,8 @@
 #include "experiments/experiment_config.h"
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
+#include "experiments/atomic_file.h"
 
 #include <algorithm>
 #include <set>
@@ -120,12 +122,13 @@ void check_baseline(const Experiment& experiment) {
         suggestion(experiment.baseline, names));
 }
 
-Experiment build(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+Experiment build(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& sets) {
   Experiment experiment;
   experiment.file = file;
-  experiment.config = nested(read_json_file(file));
+  experiment.config = nested(parse_json(text));
   std::vector<Setting> settings;
-  for (const std::string& text : sets) settings.push_back(parse_setting(text));
+  for (const std::string& set : sets) settings.push_back(parse_setting(set));
   if (experiment.config.is_object()) {
     for (const Setting& setting : settings) apply_setting(experiment.config, setting);
   }
@@ -151,11 +154,16 @@ Experiment build(const std::filesystem::path& file, const std::vector<std::strin
 }  // namespace
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return parse_experiment(read_file(file), file, sets);
+}
+
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& sets) {
   try {
-    return build(file, sets);
+    return build(text, file, sets);
   } catch (const Error& error) {
-    const std::string message = error.what();
-    if (message.starts_with(file.string()) || message.starts_with("--set")) throw;
+    const std::string message = one_line(error.what());
+    if (message.starts_with("--set")) fail("{}", message);
     fail("{}: {}", file.string(), message);
   }
 }

@@ -1,6 +1,7 @@
 #include "experiments/json.h"
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
 #include "experiments/atomic_file.h"
 
 #include <set>
@@ -70,9 +71,8 @@ Json read_json_file(const std::filesystem::path& file) {
 
 std::string show(const Json& value, bool bare) {
   if (bare && value.is_string()) return value.get<std::string>();
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (!bare && text.size() > kMaxShown) text = text.substr(0, kMaxShown) + "...";
-  return text;
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return bare ? text : shortened(text, kMaxShown);
 }
 
 void set_path(Json& object, std::string_view path, const Json& value) {

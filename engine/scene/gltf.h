@@ -3,6 +3,7 @@
 #include "engine/scene/scene.h"
 
 #include <filesystem>
+#include <span>
 
 namespace qtrace {
 
@@ -16,5 +17,8 @@ namespace qtrace {
 // material follows as "default" where a primitive names none. A normal of length zero, or one that points
 // behind its triangle, gives way to the face normal. Both have a warning.
 Scene load_gltf(const std::filesystem::path& file);
+
+// The same of bytes in memory; `file` is what messages call them, and its folder holds their buffers.
+Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file);
 
 }  // namespace qtrace
