@@ -10,7 +10,8 @@ namespace qtrace::experiments {
 namespace {
 
 constexpr int kMaxDepth = 16;
-constexpr std::size_t kMaxShown = 60;  // characters of a value in a message
+constexpr std::size_t kMaxKeys = 4096;  // in one object; ordered_json looks through all for each
+constexpr std::size_t kMaxShown = 60;   // characters of a value in a message
 
 // nlohmann's texts start with "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
 std::string without_tag(const std::string& message) {
@@ -28,6 +29,7 @@ class KeyWatch {
     if (event == Json::parse_event_t::key) {
       const auto& key = parsed.get_ref<const std::string&>();
       check(open_.back().insert(key).second, "key '{}' stands twice in one object; keep one of them", key);
+      check(open_.back().size() <= kMaxKeys, "an object has more than {} keys; divide it", kMaxKeys);
     }
     return true;
   }

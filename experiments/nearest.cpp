@@ -29,10 +29,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t kMaxSteps = 50'000'000;  // a fraction of a second; a hint is worth no more
   const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
+  std::size_t steps = 0;
   std::size_t best_distance = limit + 1;
   std::string best;
   for (const std::string& candidate : candidates) {
+    steps += word.size() * candidate.size();
+    if (steps > kMaxSteps) break;
     const std::size_t distance =
         std::min(edit_distance(word, candidate), edit_distance(last_part(word), last_part(candidate)));
     if (distance < best_distance) {

@@ -4,6 +4,7 @@
 #include "experiments/config.h"
 #include "experiments/json.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,17 +34,21 @@ struct KnobType<Sweep> {
   static Json write(const Sweep& sweep);
 };
 
-// One point of a sweep before it is read: which values, and the base config with their overrides.
+// One point of a sweep before it is read: which values, and what they change of the base config.
 struct SweepPoint {
   std::string id;                   // "scene=occluded,method=rl,seed=3"; "run" without axes
   std::string cell;                 // labels of all axes but the seed, joined by " / "
   std::vector<std::string> labels;  // one per axis
-  Json config;
+  Json overrides;
 };
 
-// The product of the axes, the last one fastest. Throws Error for ids that are too long for a file name
-// or equal, and for more than 100,000 runs.
-std::vector<SweepPoint> expand_sweep(const Sweep& sweep, const Json& base);
+// Throws Error for more than 100,000 runs, or for more than fit into memory: all of them are read before the
+// first begins, each of them as long as `base`, a config's text, and its overrides.
+void check_size(const Sweep& sweep, std::size_t base);
+
+// Hands on the product of the axes, the last one fastest. Throws Error for ids that are too long for a file
+// name.
+void expand_sweep(const Sweep& sweep, const std::function<void(const SweepPoint&)>& use);
 
 // Lower-case letters, digits, '.', '_' and '-' of the text; everything else becomes a single '-'.
 std::string slug(std::string_view text);

@@ -44,18 +44,22 @@ void read_source(Source& source, FileContent content, const std::filesystem::pat
   source.model.buffers = std::move(buffers);
 }
 
-Scene make_scene(FileContent content, const std::filesystem::path& file) {
-  Source source{file.string(), {}, {}};
+Scene make_scene(FileContent content, const std::filesystem::path& file, const SceneLimits& limits) {
+  Source source{file.string(), {}, {}, 0};
   read_source(source, std::move(content), file);
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);
   std::vector<PlacedNode> nodes = place_nodes(source);
+  scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
   scene.camera = read_camera(source, nodes);
   add_objects(source, nodes, scene);
   drop_duplicates(source, scene);
   scene.warnings = std::move(source.warnings);
+  if (source.more_warnings > 0) {
+    scene.warnings.push_back(fmt::format("{} more warnings are left out", source.more_warnings));
+  }
   return scene;
 }
 
@@ -64,11 +68,12 @@ Scene make_scene(FileContent content, const std::filesystem::path& file) {
 
 Scene load_gltf(const std::filesystem::path& file) {
   gltf::FileContent content = gltf::split_content(gltf::read_scene_file(file), file);
-  return gltf::make_scene(std::move(content), file);
+  return gltf::make_scene(std::move(content), file, {});
 }
 
-Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file) {
-  return gltf::make_scene(gltf::split_content(bytes, file), file);
+Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file,
+                 const SceneLimits& limits) {
+  return gltf::make_scene(gltf::split_content(bytes, file), file, limits);
 }
 
 }  // namespace qtrace

@@ -19,6 +19,7 @@ struct Source {
   std::string file;  // as the user wrote it
   tinygltf::Model model;
   std::vector<std::string> warnings;
+  std::size_t more_warnings = 0;  // that were left out
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
@@ -32,6 +33,11 @@ struct Source {
 
   template <class... Args>
   void warn(fmt::format_string<Args...> format, Args&&... args) {
+    constexpr std::size_t kMostWarnings = 100;
+    if (warnings.size() == kMostWarnings) {
+      ++more_warnings;
+      return;
+    }
     warnings.push_back(one_line(fmt::format(format, std::forward<Args>(args)...)));
   }
 };

@@ -13,6 +13,9 @@ namespace {
 // Buffers in files cannot be found in a folder that is not there.
 const char* const kFile = "/nonexistent/folder/fuzz.gltf";
 
+// What the sanitizers can read in a second.
+const SceneLimits kLimits{std::size_t{1} << 18U, std::size_t{1} << 13U};
+
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void expect_usable(const Scene& scene) {
@@ -90,7 +93,7 @@ std::string mutate(std::string_view bytes, std::size_t max_size, unsigned seed) 
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    qtrace::fuzz::expect_usable(qtrace::parse_gltf({data, size}, qtrace::fuzz::kFile));
+    qtrace::fuzz::expect_usable(qtrace::parse_gltf({data, size}, qtrace::fuzz::kFile, qtrace::fuzz::kLimits));
   } catch (const qtrace::Error& error) {
     qtrace::fuzz::expect_message(error.what());
   }

@@ -94,8 +94,8 @@ class Mutator {
   void nudge(Json& node) {
     const std::array factors{0.5, 2.0, -1.0, 1.0001, 1e3, 1e-3};
     if (node.is_number_integer()) {
-      node = node.get<std::int64_t>() / (1 + static_cast<std::int64_t>(below(2))) +
-             static_cast<std::int64_t>(below(5)) - 2;
+      const auto unsigned_value = static_cast<std::uint64_t>(node.get<std::int64_t>());  // may wrap
+      node = static_cast<std::int64_t>(unsigned_value / (1 + below(2)) + below(5) - 2);
     } else if (node.is_number()) {
       node = node.get<double>() * factors[below(factors.size())];
     } else if (node.is_string()) {
