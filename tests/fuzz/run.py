@@ -19,6 +19,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+from collections import deque
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,8 +27,9 @@ FINDINGS = ROOT / "build/fuzz/findings"
 QTRACE = ROOT / "build/release/qtrace"
 LARGEST_SCENE = 20_000  # bytes; larger ones teach the loader nothing new and slow each try
 LIMITS = ["-rss_limit_mb=1024", "-malloc_limit_mb=512", "-timeout=5", "-max_len=65536"]
-# What libFuzzer writes once in a while, and at the end.
-PROGRESS = re.compile(r"^(#\d+\s+(INITED|pulse|DONE)|Done \d+ runs|stat::|==|SUMMARY|fuzz:)|ERROR|runtime error")
+# What libFuzzer writes once in a while, and at the end: tries, code reached, memory, speed.
+PROGRESS = re.compile(r"^(#\d+\s+(INITED|pulse|DONE)|stat::)")
+SHOWN_OF_A_FINDING = 100  # lines
 
 
 def as_gltf(glb: bytes) -> bytes:
@@ -39,8 +41,17 @@ def as_gltf(glb: bytes) -> bytes:
     return json.dumps(document, separators=(",", ":")).encode()
 
 
+def key_rows() -> list[list[str]]:
+    """Key, type, default and more, as `qtrace keys` prints them."""
+    listing = subprocess.run([QTRACE, "keys"], capture_output=True, text=True, check=True).stdout
+    return [re.split(r"\s{2,}", line) for line in listing.splitlines()[1:]]
+
+
 def config_seeds() -> dict[str, bytes]:
-    return {file.name: file.read_bytes() for file in sorted(ROOT.glob("configs/*.json"))}
+    seeds = {file.name: file.read_bytes() for file in sorted(ROOT.glob("configs/*.json"))}
+    defaults = {key: json.loads(default) for key, _, default, *_ in key_rows()}
+    named = defaults | {"name": "defaults", "scene": "a.glb", "published.ms_per_frame": {"all": 1}}
+    return seeds | {"defaults.json": json.dumps(named).encode()}
 
 
 def gltf_seeds() -> dict[str, bytes]:
@@ -56,11 +67,10 @@ def gltf_seeds() -> dict[str, bytes]:
 def config_words() -> set[str]:
     """Keys, their last parts, and the words that values may be."""
     words = set()
-    for line in subprocess.run([QTRACE, "keys"], capture_output=True, text=True, check=True).stdout.splitlines()[1:]:
-        key, *rest = re.split(r"\s{2,}", line)
+    for key, kind, *_ in key_rows():
         words |= {key, key.split(".")[-1]}
-        if rest and rest[0].startswith("one of "):
-            words |= set(rest[0].removeprefix("one of ").split(", "))
+        if kind.startswith("one of "):
+            words |= set(kind.removeprefix("one of ").split(", "))
     return words | {"powers_of_two", "ms_per_frame"}
 
 
@@ -99,11 +109,14 @@ def fuzz(target: str, options: argparse.Namespace, folder: Path) -> bool:
                f"-artifact_prefix={FINDINGS}/{target}-"]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                           errors="replace") as process:
-        log = list(process.stderr)
-    failed = process.returncode != 0
-    shown = log[-200:] if failed else [line for line in log if PROGRESS.search(line)][-12:]
-    print("".join(shown), end="", flush=True)
-    return not failed
+        last = deque(maxlen=SHOWN_OF_A_FINDING)
+        for line in process.stderr:
+            last.append(line)
+            if PROGRESS.search(line):
+                print(f"fuzz: {target}: {line}", end="", flush=True)
+    if process.returncode != 0:
+        print("".join(last), end="", flush=True)
+    return process.returncode == 0
 
 
 def main() -> int:

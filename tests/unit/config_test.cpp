@@ -266,5 +266,13 @@ TEST(ConfigShipped, AllConfigsOfTheRepositoryAreValid) {
   }
 }
 
+// The fuzzer's own seed, which has every form that a config may take.
+TEST(ConfigShipped, TheFuzzerStartsFromAConfigThatIsRead) {
+  const Experiment experiment =
+      load_experiment(QTRACE_SOURCE_DIR "/tests/fuzz/corpus/config/every_form.json");
+  EXPECT_EQ(experiment.runs.size(), 24U);
+  EXPECT_EQ(experiment.warnings.size(), 1U);  // of a published figure
+}
+
 }  // namespace
 }  // namespace qtrace::experiments

@@ -60,8 +60,7 @@ TEST_F(GltfLimitsTest, LimitsCanBeLower) {
   add_instances(strip(), 2, 3);
   const std::string bytes = gltf.glb();
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  EXPECT_EQ(parse_gltf({data, bytes.size()}, "a.glb", {6000, 6}).triangles.size(),
-            6000U);
+  EXPECT_EQ(parse_gltf({data, bytes.size()}, "a.glb", {6000, 6}).triangles.size(), 6000U);
   EXPECT_THROW(parse_gltf({data, bytes.size()}, "a.glb", {5999, 6}), Error);
   EXPECT_THROW(parse_gltf({data, bytes.size()}, "a.glb", {6000, 5}), Error);
 }
@@ -74,6 +73,13 @@ TEST_F(GltfLimitsTest, ManyWarningsAreCounted) {
   EXPECT_NE(scene.warnings[99].find("mesh 1 primitive 99 holds points"), std::string::npos)
       << scene.warnings[99];
   EXPECT_EQ(scene.warnings[100], "502 more warnings are left out");  // two objects are omitted
+}
+
+// The fuzzer's own seed, which has each property that the loader reads.
+TEST_F(GltfLimitsTest, TheFuzzerStartsFromASceneThatIsRead) {
+  const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/tests/fuzz/corpus/gltf/every_property.gltf");
+  EXPECT_EQ(scene.triangles.size(), 16U);
+  EXPECT_EQ(scene.objects.size(), 3U);
 }
 
 // A name of 100 kB stood in every warning, with the line breaks of other texts.
