@@ -132,7 +132,7 @@ void check_baseline(const Experiment& experiment) {
 }
 
 Experiment build(const std::string& text, const std::filesystem::path& file,
-                 const std::vector<std::string>& sets) {
+                 const std::vector<std::string>& sets, const SweepLimits& limits) {
   constexpr std::size_t kMaxText = std::size_t{1} << 20U;
   check(text.size() <= kMaxText, "the config has {} bytes; at most {} would be right", text.size(), kMaxText);
   Experiment experiment;
@@ -154,7 +154,7 @@ Experiment build(const std::string& text, const std::filesystem::path& file,
 
   Json base = experiment.config;
   for (const char* once : {"sweep", "published", "baseline"}) base.erase(once);
-  check_size(keys.sweep, base.dump().size());
+  check_size(keys.sweep, base.dump().size(), limits);
   expand_sweep(keys.sweep,
                [&](const SweepPoint& point) { experiment.runs.push_back(make_run(point, keys.run)); });
   check_published(experiment);
@@ -169,9 +169,9 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 }
 
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
-                            const std::vector<std::string>& sets) {
+                            const std::vector<std::string>& sets, const SweepLimits& limits) {
   try {
-    return build(text, file, sets);
+    return build(text, file, sets, limits);
   } catch (const Error& error) {
     const std::string message = one_line(error.what());
     if (message.starts_with("--set")) fail("{}", message);

@@ -64,6 +64,6 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 
 // The same of a text in memory; `file` is what messages call it, and scenes are relative to its folder.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
-                            const std::vector<std::string>& sets = {});
+                            const std::vector<std::string>& sets = {}, const SweepLimits& limits = {});
 
 }  // namespace qtrace::experiments

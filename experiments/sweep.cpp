@@ -11,10 +11,8 @@
 namespace qtrace::experiments {
 namespace {
 
-constexpr double kMaxRuns = 100'000;
-constexpr double kMaxText = 128 * 1024 * 1024;  // bytes of the configs of all runs
-constexpr std::size_t kMaxId = 200;             // bytes; file systems allow 255 for a name
-constexpr std::size_t kMaxAxes = kMaxId / 4;    // "a=b,"
+constexpr std::size_t kMaxId = 200;           // bytes; file systems allow 255 for a name
+constexpr std::size_t kMaxAxes = kMaxId / 4;  // "a=b,"
 
 const std::vector<std::string>& override_keys() {
   static const std::vector<std::string> keys = settable_keys(list_knobs(RunConfig{}));
@@ -160,7 +158,7 @@ Json KnobType<Sweep>::write(const Sweep& sweep) {
   return axes;
 }
 
-void check_size(const Sweep& sweep, std::size_t base) {
+void check_size(const Sweep& sweep, std::size_t base, const SweepLimits& limits) {
   double runs = 1;
   std::size_t size = base;
   for (const Axis& axis : sweep.axes) {
@@ -169,11 +167,12 @@ void check_size(const Sweep& sweep, std::size_t base) {
     runs *= static_cast<double>(axis.values.size());
     size += longest;
   }
-  check(runs <= kMaxRuns, "key 'sweep' asks for {:.10g} runs but {} are the most; divide it", runs, kMaxRuns);
-  check(runs * static_cast<double>(size) <= kMaxText,
+  check(runs <= limits.runs, "key 'sweep' asks for {:.10g} runs but {} are the most; divide it", runs,
+        limits.runs);
+  check(runs * static_cast<double>(size) <= limits.text,
         "key 'sweep' asks for {} runs with configs of up to {} bytes, but {} bytes are the most for all; "
         "divide it",
-        runs, size, kMaxText);
+        runs, size, limits.text);
 }
 
 void expand_sweep(const Sweep& sweep, const std::function<void(const SweepPoint&)>& use) {

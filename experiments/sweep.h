@@ -42,9 +42,14 @@ struct SweepPoint {
   Json overrides;
 };
 
-// Throws Error for more than 100,000 runs, or for more than fit into memory: all of them are read before the
-// first begins, each of them as long as `base`, a config's text, and its overrides.
-void check_size(const Sweep& sweep, std::size_t base);
+struct SweepLimits {
+  double runs = 100'000;
+  double text =
+      128 * 1024 * 1024;  // bytes of the configs of all runs, which are read before the first begins
+};
+
+// Throws Error for more runs than `limits`, or more text: of `base` bytes, a config's, and the overrides.
+void check_size(const Sweep& sweep, std::size_t base, const SweepLimits& limits);
 
 // Hands on the product of the axes, the last one fastest. Throws Error for ids that are too long for a file
 // name.

@@ -32,7 +32,10 @@ void read(std::string_view bytes) {
   std::vector<std::string> sets = split(bytes);
   const std::string text = sets.front();
   sets.erase(sets.begin());
-  const experiments::Experiment experiment = experiments::parse_experiment(text, "fuzz.json", sets);
+  sets.resize(std::min<std::size_t>(sets.size(), 8));  // as many as users type
+  // What the sanitizers can read in a second.
+  constexpr experiments::SweepLimits kLimits{2000, 1 << 22};
+  const experiments::Experiment experiment = experiments::parse_experiment(text, "fuzz.json", sets, kLimits);
   for (const std::string& warning : experiment.warnings) expect_message(warning);
   expect(!experiment.runs.empty(), "an experiment must have a run", text);
   expect_round_trip(experiment.runs.front());
