@@ -34,19 +34,20 @@ void parse_model(Source& source, nlohmann::json document) {
   source.check(is_parsed && errors.empty(), "the glTF is not valid: {}", errors);
 }
 
-void read_source(Source& source, FileContent content, const std::filesystem::path& file) {
+void read_source(Source& source, FileContent content, const std::filesystem::path& file,
+                 std::size_t max_bytes) {
   nlohmann::json document = parse_json(source, content.json);
   check_json(source, document);
   check_features(source, document);
   std::vector<tinygltf::Buffer> buffers =
-      load_buffers(source, document, file.parent_path(), std::move(content));
+      load_buffers(source, document, file.parent_path(), std::move(content), max_bytes);
   parse_model(source, std::move(document));
   source.model.buffers = std::move(buffers);
 }
 
 Scene make_scene(FileContent content, const std::filesystem::path& file, const SceneLimits& limits) {
   Source source{file.string(), {}, {}, 0};
-  read_source(source, std::move(content), file);
+  read_source(source, std::move(content), file, limits.file_bytes);
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);

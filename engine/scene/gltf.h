@@ -20,10 +20,12 @@ namespace qtrace {
 // behind its triangle, gives way to the face normal. Both have a warning.
 Scene load_gltf(const std::filesystem::path& file);
 
-// Nodes share meshes and primitives share buffers, so a small file may ask for any number of both.
+// Nodes share meshes, primitives share buffers and buffers share files, so a small file may ask for any
+// number of all.
 struct SceneLimits {
   std::size_t triangles = std::size_t{1} << 26U;   // 7 GB
   std::size_t primitives = std::size_t{1} << 22U;  // those that are skipped included
+  std::size_t file_bytes = std::size_t{1} << 33U;  // of buffers in files of their own
 };
 
 // The same of bytes in memory; `file` is what messages call them, and its folder holds their buffers.

@@ -14,7 +14,7 @@ namespace {
 const char* const kFile = "/nonexistent/folder/fuzz.gltf";
 
 // What the sanitizers can read in a second.
-const SceneLimits kLimits{std::size_t{1} << 18U, std::size_t{1} << 13U};
+const SceneLimits kLimits{std::size_t{1} << 16U, std::size_t{1} << 13U, std::size_t{1} << 24U};
 
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 

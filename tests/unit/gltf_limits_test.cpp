@@ -59,10 +59,24 @@ TEST_F(GltfLimitsTest, PrimitivesAreCountedToo) {
 TEST_F(GltfLimitsTest, LimitsCanBeLower) {
   add_instances(strip(), 2, 3);
   const std::string bytes = gltf.glb();
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  EXPECT_EQ(parse_gltf({data, bytes.size()}, "a.glb", {6000, 6}).triangles.size(), 6000U);
-  EXPECT_THROW(parse_gltf({data, bytes.size()}, "a.glb", {5999, 6}), Error);
-  EXPECT_THROW(parse_gltf({data, bytes.size()}, "a.glb", {6000, 5}), Error);
+  const auto count = [&](const SceneLimits& limits) {
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    return parse_gltf({data, bytes.size()}, "a.glb", limits).triangles.size();
+  };
+  EXPECT_EQ(count({6000, 6, 0}), 6000U);
+  EXPECT_THROW(count({5999, 6, 0}), Error);
+  EXPECT_THROW(count({6000, 5, 0}), Error);
+}
+
+// A file of 1 MB that is read as often as the scene's author likes.
+TEST_F(GltfLimitsTest, BuffersThatShareAFileAreCounted) {
+  constexpr std::size_t kSize = std::size_t{1} << 20U;
+  gltf.add_triangle();
+  folder.write("data.bin", std::string(kSize, '\0'));
+  const nlohmann::json buffer = {{"byteLength", kSize}, {"uri", "data.bin"}};
+  gltf.json["buffers"] = std::vector<nlohmann::json>(8193, buffer);
+  expect_error(folder.write("scene.gltf", gltf.json.dump()),
+               {"the buffers ask for more than 8589934592 bytes of files, which is the most supported"});
 }
 
 TEST_F(GltfLimitsTest, ManyWarningsAreCounted) {
