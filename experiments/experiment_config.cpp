@@ -1,6 +1,8 @@
 #include "experiments/experiment_config.h"
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
+#include "experiments/atomic_file.h"
 
 #include <algorithm>
 #include <set>
@@ -75,10 +77,10 @@ Json nested(const Json& raw) {
   return config;
 }
 
-Run make_run(const SweepPoint& point) {
-  Run run{point.id, point.cell, point.labels, {}};
+Run make_run(const SweepPoint& point, const RunConfig& base) {
+  Run run{point.id, point.cell, point.labels, base};
   try {
-    read_knobs(point.config, run.config);
+    read_knobs(point.overrides, run.config);
     check_run_config(run.config);
   } catch (const Error& error) {
     fail("run '{}': {}", point.id, error.what());
@@ -87,19 +89,26 @@ Run make_run(const SweepPoint& point) {
 }
 
 void check_published(Experiment& experiment) {
-  std::vector<std::string> cells;
-  std::vector<std::string> labels;
+  constexpr std::size_t kMostWarnings = 10;
+  std::set<std::string> cells;
+  std::set<std::string> labels;
   for (const Run& run : experiment.runs) {
-    cells.push_back(run.cell);
-    labels.insert(labels.end(), run.labels.begin(), run.labels.end());
+    cells.insert(run.cell);
+    labels.insert(run.labels.begin(), run.labels.end());
   }
-  const auto warn_unless_known = [&](const std::string& name, const std::vector<std::string>& known) {
-    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-    experiment.warnings.push_back(fmt::format("{}: 'published' names '{}', which the sweep does not have{}",
-                                              experiment.file.string(), name, suggestion(name, known)));
+  std::size_t unknown = 0;
+  const auto warn = [&](const std::string& names, const std::string& hint) {
+    experiment.warnings.push_back(fmt::format(
+        "{}: {}", experiment.file.string(),
+        one_line(fmt::format("'published' names {}, which the sweep does not have{}", names, hint))));
+  };
+  const auto warn_unless_known = [&](const std::string& name, const std::set<std::string>& known) {
+    if (name.empty() || known.contains(name) || ++unknown > kMostWarnings) return;
+    warn(fmt::format("'{}'", name), suggestion(name, {known.begin(), known.end()}));
   };
   for (const auto& [cell, ms] : experiment.published.ms_per_frame.by_cell) warn_unless_known(cell, cells);
   for (const std::string& label : experiment.published.ratio) warn_unless_known(label, labels);
+  if (unknown > kMostWarnings) warn(fmt::format("{} more", unknown - kMostWarnings), "");
 }
 
 // A label must belong to one axis alone, so that it is clear which one is compared along.
@@ -114,18 +123,23 @@ void check_baseline(const Experiment& experiment) {
   }
   check(axes < 2, "key 'baseline' is '{}', a label of {} axes; name a whole cell instead",
         experiment.baseline, axes);
-  for (const Run& run : experiment.runs) names.push_back(run.cell);
+  for (const Run& run : experiment.runs) {
+    if (names.empty() || names.back() != run.cell) names.push_back(run.cell);  // seeds follow each other
+  }
   check(std::ranges::find(names, experiment.baseline) != names.end(),
         "key 'baseline' is '{}' but must be a label or a cell of the sweep{}", experiment.baseline,
         suggestion(experiment.baseline, names));
 }
 
-Experiment build(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+Experiment build(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& sets, const SweepLimits& limits) {
+  constexpr std::size_t kMaxText = std::size_t{1} << 20U;
+  check(text.size() <= kMaxText, "the config has {} bytes; at most {} would be right", text.size(), kMaxText);
   Experiment experiment;
   experiment.file = file;
-  experiment.config = nested(read_json_file(file));
+  experiment.config = nested(parse_json(text));
   std::vector<Setting> settings;
-  for (const std::string& text : sets) settings.push_back(parse_setting(text));
+  for (const std::string& set : sets) settings.push_back(parse_setting(set));
   if (experiment.config.is_object()) {
     for (const Setting& setting : settings) apply_setting(experiment.config, setting);
   }
@@ -139,10 +153,10 @@ Experiment build(const std::filesystem::path& file, const std::vector<std::strin
   experiment.baseline = keys.baseline;
 
   Json base = experiment.config;
-  base.erase("sweep");
-  base.erase("published");
-  base.erase("baseline");
-  for (const SweepPoint& point : expand_sweep(keys.sweep, base)) experiment.runs.push_back(make_run(point));
+  for (const char* once : {"sweep", "published", "baseline"}) base.erase(once);
+  check_size(keys.sweep, base.dump().size(), limits);
+  expand_sweep(keys.sweep,
+               [&](const SweepPoint& point) { experiment.runs.push_back(make_run(point, keys.run)); });
   check_published(experiment);
   check_baseline(experiment);
   return experiment;
@@ -151,11 +165,16 @@ Experiment build(const std::filesystem::path& file, const std::vector<std::strin
 }  // namespace
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return parse_experiment(read_file(file), file, sets);
+}
+
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& sets, const SweepLimits& limits) {
   try {
-    return build(file, sets);
+    return build(text, file, sets, limits);
   } catch (const Error& error) {
-    const std::string message = error.what();
-    if (message.starts_with(file.string()) || message.starts_with("--set")) throw;
+    const std::string message = one_line(error.what());
+    if (message.starts_with("--set")) fail("{}", message);
     fail("{}: {}", file.string(), message);
   }
 }

@@ -62,4 +62,8 @@ struct Experiment {
 // Throws Error that names the file, the run where only one is concerned, and the key.
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
+// The same of a text in memory; `file` is what messages call it, and scenes are relative to its folder.
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& sets = {}, const SweepLimits& limits = {});
+
 }  // namespace qtrace::experiments

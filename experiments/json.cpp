@@ -1,6 +1,7 @@
 #include "experiments/json.h"
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
 #include "experiments/atomic_file.h"
 
 #include <set>
@@ -8,8 +9,9 @@
 namespace qtrace::experiments {
 namespace {
 
-constexpr int kMaxDepth = 16;
-constexpr std::size_t kMaxShown = 60;  // characters of a value in a message
+constexpr std::size_t kMaxDepth = 16;
+constexpr std::size_t kMaxKeys = 4096;  // in one object; ordered_json looks through all for each
+constexpr std::size_t kMaxShown = 60;   // characters of a value in a message
 
 // nlohmann's texts start with "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
 std::string without_tag(const std::string& message) {
@@ -17,22 +19,41 @@ std::string without_tag(const std::string& message) {
   return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
 }
 
-// Sees every key while parsing, because the parsed object has forgotten the first of two equal keys.
-class KeyWatch {
+// Sees every key before the parsed object has forgotten the first of two equal keys. No callback of
+// Json::parse, which looks through all elements of a list after each object in it (3.11).
+class KeyWatch : public nlohmann::json_sax<Json> {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
-    check(depth <= kMaxDepth, "values are nested more than {} deep", kMaxDepth);
-    if (event == Json::parse_event_t::object_start) open_.emplace_back();
-    if (event == Json::parse_event_t::object_end) open_.pop_back();
-    if (event == Json::parse_event_t::key) {
-      const auto& key = parsed.get_ref<const std::string&>();
-      check(open_.back().insert(key).second, "key '{}' stands twice in one object; keep one of them", key);
-    }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return open(); }
+  bool start_array(std::size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& key) override {
+    check(keys_.back().insert(key).second, "key '{}' stands twice in one object; keep one of them", key);
+    check(keys_.back().size() <= kMaxKeys, "an object has more than {} keys; divide it", kMaxKeys);
+    return true;
+  }
+  // Json::parse will say it.
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+ private:
+  bool open() {
+    keys_.emplace_back();
+    check(keys_.size() <= kMaxDepth, "values are nested more than {} deep", kMaxDepth);
+    return true;
+  }
+  bool close() {
+    keys_.pop_back();
     return true;
   }
 
- private:
-  std::vector<std::set<std::string>> open_;
+  std::vector<std::set<std::string>> keys_;  // of all objects and lists that are open
 };
 
 void add_leaf_paths(const Json& object, const std::string& prefix, std::vector<std::string>& paths) {
@@ -48,12 +69,10 @@ void add_leaf_paths(const Json& object, const std::string& prefix, std::vector<s
 }  // namespace
 
 Json parse_json(const std::string& text) {
-  KeyWatch watch;
   try {
-    const auto callback = [&watch](int depth, Json::parse_event_t event, Json& parsed) {
-      return watch(depth, event, parsed);
-    };
-    return Json::parse(text, callback, true, true);
+    KeyWatch watch;
+    Json::sax_parse(text, &watch, Json::input_format_t::json, true, true);
+    return Json::parse(text, nullptr, true, true);
   } catch (const Json::exception& error) {
     fail("not valid JSON: {}", without_tag(error.what()));
   }
@@ -70,9 +89,8 @@ Json read_json_file(const std::filesystem::path& file) {
 
 std::string show(const Json& value, bool bare) {
   if (bare && value.is_string()) return value.get<std::string>();
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (!bare && text.size() > kMaxShown) text = text.substr(0, kMaxShown) + "...";
-  return text;
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return bare ? text : shortened(text, kMaxShown);
 }
 
 void set_path(Json& object, std::string_view path, const Json& value) {

@@ -13,7 +13,7 @@ namespace qtrace::experiments {
 using Json = nlohmann::ordered_json;  // keeps the order in which a config names things
 
 // Comments are allowed. Throws Error with line and column: bad syntax, a key that an object has twice,
-// nesting deeper than 16, numbers outside double precision.
+// nesting deeper than 16, more than 4096 keys in one object, numbers outside double precision.
 Json parse_json(const std::string& text);
 
 // The same for a file; every error names it.

@@ -72,12 +72,14 @@ class KnobReader {
     }
   }
 
-  // Throws Error at the first key that no knob was declared for; `keys` are the ones to suggest from.
-  void reject_unknown(const std::vector<std::string>& keys) const {
+  // Throws Error at the first key that no knob was declared for; `keys` lists the ones to suggest from, and
+  // is asked only then, because a sweep reads many thousand configs.
+  template <class Keys>
+  void reject_unknown(const Keys& keys) const {
     for (const auto& [key, value] : object_.items()) {
       if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) continue;
       const std::string path = join_path(path_, key);
-      const std::string hint = suggestion(path, keys);
+      const std::string hint = suggestion(path, keys());
       fail("unknown key '{}'{}", path, hint.empty() ? "; `qtrace keys` lists all keys" : hint);
     }
   }
@@ -132,7 +134,7 @@ void read_knobs(const Json& json, T& group, const std::string& path) {
   }
   KnobReader reader(json, path);
   visit_knobs(reader, group);
-  reader.reject_unknown(settable_keys(list_knobs(T{}, path)));
+  reader.reject_unknown([&] { return settable_keys(list_knobs(T{}, path)); });
 }
 
 // All knobs of a group as a JSON object, in the order of their declaration.

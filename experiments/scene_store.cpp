@@ -5,6 +5,7 @@
 #include "experiments/hash.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace qtrace::experiments {
 
@@ -12,7 +13,8 @@ const LoadedScene& SceneStore::load(const std::filesystem::path& file) {
   const auto key = file.lexically_normal();
   const auto found = scenes_.find(key);
   if (found != scenes_.end()) return found->second;
-  check(std::filesystem::is_regular_file(file),
+  std::error_code unreadable;  // a name that is too long, say
+  check(std::filesystem::is_regular_file(file, unreadable),
         "{}: no such scene; key 'scene' is relative to the config file", file.string());
   LoadedScene loaded{file, load_gltf(file), ""};
   loaded.hash = scene_hash(loaded.scene);

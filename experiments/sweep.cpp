@@ -1,20 +1,27 @@
 #include "experiments/sweep.h"
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace qtrace::experiments {
 namespace {
 
-constexpr std::size_t kMaxRuns = 100'000;
-constexpr std::size_t kMaxId = 200;  // bytes; file systems allow 255 for a name
+constexpr std::size_t kMaxId = 200;           // bytes; file systems allow 255 for a name
+constexpr std::size_t kMaxAxes = kMaxId / 4;  // "a=b,"
+
+const std::vector<std::string>& override_keys() {
+  static const std::vector<std::string> keys = settable_keys(list_knobs(RunConfig{}));
+  return keys;
+}
 
 // Overrides may set any knob of a run but the name, which belongs to the experiment as a whole.
 void check_override_key(const std::string& place, const std::string& key) {
-  const std::vector<std::string> keys = settable_keys(list_knobs(RunConfig{}));
+  const std::vector<std::string>& keys = override_keys();
   check(key != "name", "{} sets 'name', which belongs to the whole experiment", place);
   if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
   fail("{} sets the unknown key '{}'{}", place, key, suggestion(key, keys));
@@ -32,12 +39,10 @@ AxisValue plain_value(const std::string& key, const Json& value) {
 Axis read_values(const std::string& key, const Json& values) {
   check_override_key("a sweep axis", key);
   Axis axis{key, key == "seed", {}};
+  std::set<Json> seen;
   for (const Json& value : values) {
-    AxisValue next = plain_value(key, value);
-    for (const AxisValue& other : axis.values) {
-      check(next.overrides != other.overrides, "sweep axis '{}' has the value {} twice", key, show(value));
-    }
-    axis.values.push_back(std::move(next));
+    check(seen.insert(value).second, "sweep axis '{}' has the value {} twice", key, show(value));
+    axis.values.push_back(plain_value(key, value));
   }
   return axis;
 }
@@ -60,22 +65,20 @@ Axis read_groups(const std::string& label, const Json& groups) {
 void check_axis(const Axis& axis) {
   check(!slug(axis.name).empty(), "sweep axis '{}' needs a name with letters or digits", axis.name);
   check(!axis.values.empty(), "sweep axis '{}' has no values; give it one at least or remove it", axis.name);
-  for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    const AxisValue& value = axis.values[i];
+  std::map<std::string, std::string> labels;  // by slug
+  for (const AxisValue& value : axis.values) {
     check(!value.slug.empty(), "sweep axis '{}': '{}' needs letters or digits, to name a folder", axis.name,
           value.label);
-    for (std::size_t j = 0; j < i; ++j) {
-      check(value.slug != axis.values[j].slug,
-            "sweep axis '{}': '{}' and '{}' would have the same folder name '{}'; rename one", axis.name,
-            axis.values[j].label, value.label, value.slug);
-    }
+    const auto [first, is_new] = labels.emplace(value.slug, value.label);
+    check(is_new, "sweep axis '{}': '{}' and '{}' would have the same folder name '{}'; rename one",
+          axis.name, first->second, value.label, value.slug);
   }
 }
 
-std::vector<std::string> axis_paths(const Axis& axis) {
-  std::vector<std::string> paths;
+std::set<std::string> axis_paths(const Axis& axis) {
+  std::set<std::string> paths;
   for (const AxisValue& value : axis.values) {
-    for (std::string& path : leaf_paths(value.overrides)) paths.push_back(std::move(path));
+    for (std::string& path : leaf_paths(value.overrides)) paths.insert(std::move(path));
   }
   return paths;
 }
@@ -104,16 +107,15 @@ Axis read_axis(const Json& json, const std::string& path) {
   return values.is_array() ? read_values(name, values) : read_groups(name, values);
 }
 
-SweepPoint make_point(const std::vector<Axis>& axes, const std::vector<std::size_t>& choice,
-                      const Json& base) {
+SweepPoint make_point(const std::vector<Axis>& axes, const std::vector<std::size_t>& choice) {
   SweepPoint point;
-  point.config = base;
+  point.overrides = Json::object();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisValue& value = axes[i].values[choice[i]];
     point.id += (i == 0 ? "" : ",") + slug(axes[i].name) + '=' + value.slug;
     if (!axes[i].is_seed) point.cell += (point.cell.empty() ? "" : " / ") + value.label;
     point.labels.push_back(value.label);
-    merge(point.config, value.overrides);
+    merge(point.overrides, value.overrides);
   }
   if (axes.empty()) point.id = "run";
   if (point.cell.empty()) point.cell = "all";
@@ -135,6 +137,8 @@ std::string KnobType<Sweep>::describe(const KnobInfo&) { return "a list of axes"
 
 void KnobType<Sweep>::read(const Json& json, const KnobInfo& info, const std::string& path, Sweep& sweep) {
   if (!json.is_array()) reject_value(path, json, describe(info));
+  check(json.size() <= kMaxAxes, "key '{}' has {} axes but {} are the most: a run's id names a value of each",
+        path, json.size(), kMaxAxes);
   sweep.axes.clear();
   for (std::size_t i = 0; i < json.size(); ++i) {
     Axis axis = read_axis(json[i], fmt::format("{}[{}]", path, i));
@@ -154,21 +158,32 @@ Json KnobType<Sweep>::write(const Sweep& sweep) {
   return axes;
 }
 
-std::vector<SweepPoint> expand_sweep(const Sweep& sweep, const Json& base) {
-  std::size_t count = 1;
+void check_size(const Sweep& sweep, std::size_t base, const SweepLimits& limits) {
+  double runs = 1;
+  std::size_t size = base;
   for (const Axis& axis : sweep.axes) {
-    count *= axis.values.size();
-    check(count <= kMaxRuns, "the sweep has more than {} runs; divide it", kMaxRuns);
+    std::size_t longest = 0;
+    for (const AxisValue& value : axis.values) longest = std::max(longest, value.overrides.dump().size());
+    runs *= static_cast<double>(axis.values.size());
+    size += longest;
   }
-  std::vector<SweepPoint> points;
+  check(runs <= limits.runs, "key 'sweep' asks for {:.10g} runs but {} are the most; divide it", runs,
+        limits.runs);
+  check(runs * static_cast<double>(size) <= limits.text,
+        "key 'sweep' asks for {} runs with configs of up to {} bytes, but {} bytes are the most for all; "
+        "divide it",
+        runs, size, limits.text);
+}
+
+void expand_sweep(const Sweep& sweep, const std::function<void(const SweepPoint&)>& use) {
   std::vector<std::size_t> choice(sweep.axes.size(), 0);
   do {
-    points.push_back(make_point(sweep.axes, choice, base));
-    const std::string& id = points.back().id;
-    check(id.size() <= kMaxId, "run '{}' has an id of {} bytes, but {} are the most; shorten its axis labels",
-          id, id.size(), kMaxId);
+    const SweepPoint point = make_point(sweep.axes, choice);
+    check(point.id.size() <= kMaxId,
+          "run '{}' has an id of {} bytes, but {} are the most; shorten its axis labels",
+          shortened(point.id, kMaxId), point.id.size(), kMaxId);
+    use(point);
   } while (advance(choice, sweep.axes));
-  return points;
 }
 
 std::string slug(std::string_view text) {

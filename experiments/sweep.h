@@ -4,6 +4,7 @@
 #include "experiments/config.h"
 #include "experiments/json.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,17 +34,26 @@ struct KnobType<Sweep> {
   static Json write(const Sweep& sweep);
 };
 
-// One point of a sweep before it is read: which values, and the base config with their overrides.
+// One point of a sweep before it is read: which values, and what they change of the base config.
 struct SweepPoint {
   std::string id;                   // "scene=occluded,method=rl,seed=3"; "run" without axes
   std::string cell;                 // labels of all axes but the seed, joined by " / "
   std::vector<std::string> labels;  // one per axis
-  Json config;
+  Json overrides;
 };
 
-// The product of the axes, the last one fastest. Throws Error for ids that are too long for a file name
-// or equal, and for more than 100,000 runs.
-std::vector<SweepPoint> expand_sweep(const Sweep& sweep, const Json& base);
+struct SweepLimits {
+  double runs = 100'000;
+  double text =
+      128 * 1024 * 1024;  // bytes of the configs of all runs, which are read before the first begins
+};
+
+// Throws Error for more runs than `limits`, or more text: of `base` bytes, a config's, and the overrides.
+void check_size(const Sweep& sweep, std::size_t base, const SweepLimits& limits);
+
+// Hands on the product of the axes, the last one fastest. Throws Error for ids that are too long for a file
+// name.
+void expand_sweep(const Sweep& sweep, const std::function<void(const SweepPoint&)>& use);
 
 // Lower-case letters, digits, '.', '_' and '-' of the text; everything else becomes a single '-'.
 std::string slug(std::string_view text);

@@ -34,33 +34,47 @@ void parse_model(Source& source, nlohmann::json document) {
   source.check(is_parsed && errors.empty(), "the glTF is not valid: {}", errors);
 }
 
-void read_source(Source& source, const std::filesystem::path& file) {
-  FileContent content = read_scene_file(file);
+void read_source(Source& source, FileContent content, const std::filesystem::path& file,
+                 std::size_t max_bytes) {
   nlohmann::json document = parse_json(source, content.json);
   check_json(source, document);
   check_features(source, document);
   std::vector<tinygltf::Buffer> buffers =
-      load_buffers(source, document, file.parent_path(), std::move(content));
+      load_buffers(source, document, file.parent_path(), std::move(content), max_bytes);
   parse_model(source, std::move(document));
   source.model.buffers = std::move(buffers);
+}
+
+Scene make_scene(FileContent content, const std::filesystem::path& file, const SceneLimits& limits) {
+  Source source{file.string(), {}, {}, 0};
+  read_source(source, std::move(content), file, limits.file_bytes);
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.materials = read_materials(source);
+  std::vector<PlacedNode> nodes = place_nodes(source);
+  scene.triangles.reserve(count_triangles(source, nodes, limits));
+  scene.origin = centre_nodes(source, nodes);
+  scene.camera = read_camera(source, nodes);
+  add_objects(source, nodes, scene);
+  drop_duplicates(source, scene);
+  scene.warnings = std::move(source.warnings);
+  if (source.more_warnings > 0) {
+    scene.warnings.push_back(fmt::format("{} more warnings are left out", source.more_warnings));
+  }
+  return scene;
 }
 
 }  // namespace
 }  // namespace gltf
 
 Scene load_gltf(const std::filesystem::path& file) {
-  gltf::Source source{file.string(), {}, {}};
-  gltf::read_source(source, file);
-  Scene scene;
-  scene.name = file.stem().string();
-  scene.materials = gltf::read_materials(source);
-  std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(source);
-  scene.origin = gltf::centre_nodes(source, nodes);
-  scene.camera = gltf::read_camera(source, nodes);
-  gltf::add_objects(source, nodes, scene);
-  gltf::drop_duplicates(source, scene);
-  scene.warnings = std::move(source.warnings);
-  return scene;
+  gltf::FileContent content = gltf::split_content(gltf::read_scene_file(file), file);
+  return gltf::make_scene(std::move(content), file, {});
+}
+
+Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file,
+                 const SceneLimits& limits) {
+  return gltf::make_scene(gltf::split_content(bytes, file), file, limits);
 }
 
 }  // namespace qtrace

@@ -73,12 +73,26 @@ std::vector<unsigned char> load(const Source& source, const std::string& buffer,
   return bytes;
 }
 
+// Before the first is read. What lies inside the scene's own file cannot be larger than that.
+void check_files(const Source& source, const nlohmann::json& buffers, std::size_t max_bytes) {
+  std::size_t rest = max_bytes;
+  for (const nlohmann::json& buffer : buffers) {
+    if (!buffer.contains("uri") || buffer["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
+    const auto size = buffer["byteLength"].get<std::size_t>();
+    source.check(size <= rest, "the buffers ask for more than {} bytes of files, which is the most supported",
+                 max_bytes);
+    rest -= size;
+  }
+}
+
 }  // namespace
 
 std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann::json& document,
-                                           const fs::path& folder, FileContent content) {
+                                           const fs::path& folder, FileContent content,
+                                           std::size_t max_bytes) {
   const auto array = document.find("buffers");
   std::vector<tinygltf::Buffer> buffers(array == document.end() ? 0 : array->size());
+  if (array != document.end()) check_files(source, *array, max_bytes);
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const nlohmann::json& json = (*array)[i];
     const auto size = json["byteLength"].get<std::size_t>();

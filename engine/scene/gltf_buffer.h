@@ -11,8 +11,10 @@
 
 namespace qtrace::gltf {
 
-// Each buffer has exactly its declared byteLength.
+// Each buffer has exactly its declared byteLength. Error where those in files together have more than
+// `max_bytes`.
 std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann::json& document,
-                                           const std::filesystem::path& folder, FileContent content);
+                                           const std::filesystem::path& folder, FileContent content,
+                                           std::size_t max_bytes);
 
 }  // namespace qtrace::gltf

@@ -18,19 +18,19 @@ constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeaderSize = 12;
 constexpr std::size_t kChunkHeaderSize = 8;
 
-using Bytes = std::vector<unsigned char>;
+using Bytes = std::span<const unsigned char>;
 
-std::uint32_t little_endian(const Bytes& bytes, std::size_t offset) {
+std::uint32_t little_endian(Bytes bytes, std::size_t offset) {
   return static_cast<std::uint32_t>(bytes[offset]) | static_cast<std::uint32_t>(bytes[offset + 1]) << 8U |
          static_cast<std::uint32_t>(bytes[offset + 2]) << 16U |
          static_cast<std::uint32_t>(bytes[offset + 3]) << 24U;
 }
 
-bool has_magic(const Bytes& bytes) {
+bool has_magic(Bytes bytes) {
   return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-void check_header(const Bytes& bytes, const std::string& name) {
+void check_header(Bytes bytes, const std::string& name) {
   check(bytes.size() >= kHeaderSize, "{}: the .glb is truncated at byte {}; a header has {} bytes", name,
         bytes.size(), kHeaderSize);
   const std::uint32_t version = little_endian(bytes, 4);
@@ -43,7 +43,7 @@ void check_header(const Bytes& bytes, const std::string& name) {
 }
 
 // Returns the end of the chunk whose header starts at `offset`.
-std::size_t chunk_end(const Bytes& bytes, std::size_t offset, const std::string& name) {
+std::size_t chunk_end(Bytes bytes, std::size_t offset, const std::string& name) {
   check(bytes.size() - offset >= kChunkHeaderSize,
         "{}: the .glb is truncated: a chunk at byte {} has no complete header", name, offset);
   const std::size_t begin = offset + kChunkHeaderSize;
@@ -55,7 +55,7 @@ std::size_t chunk_end(const Bytes& bytes, std::size_t offset, const std::string&
 }
 
 // Chunks after these two are for extensions; the format asks readers to ignore them.
-FileContent split_glb(const Bytes& bytes, const std::string& name) {
+FileContent split_glb(Bytes bytes, const std::string& name) {
   check_header(bytes, name);
   const auto at = [&](std::size_t offset) { return bytes.begin() + static_cast<std::ptrdiff_t>(offset); };
   const std::size_t json_end = chunk_end(bytes, kHeaderSize, name);
@@ -86,23 +86,26 @@ std::vector<unsigned char> read_bytes(const std::filesystem::path& file, std::si
                                       const std::string& what) {
   std::ifstream stream(file, std::ios::binary);
   check(stream.is_open(), "{}: the file cannot be opened for reading", what);
-  Bytes bytes(size);
+  std::vector<unsigned char> bytes(size);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   check(static_cast<std::size_t>(stream.gcount()) == size, "{}: only {} of {} bytes can be read", what,
         stream.gcount(), size);
   return bytes;
 }
 
-FileContent read_scene_file(const std::filesystem::path& file) {
+FileContent split_content(std::span<const unsigned char> bytes, const std::filesystem::path& file) {
   const std::string name = file.string();
-  const std::size_t size = regular_file_size(file, name);
-  check(size > 0, "{}: the file is empty; a .gltf or .glb file would be right", name);
-  const Bytes bytes = read_bytes(file, size, name);
+  check(!bytes.empty(), "{}: the file is empty; a .gltf or .glb file would be right", name);
   if (has_magic(bytes)) return split_glb(bytes, name);
   check(file.extension() != ".glb", "{}: the file does not begin with '{}' as every .glb does", name, kMagic);
   FileContent content;
   content.json.assign(bytes.begin(), bytes.end());
   return content;
+}
+
+std::vector<unsigned char> read_scene_file(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  return read_bytes(file, regular_file_size(file, name), name);
 }
 
 }  // namespace qtrace::gltf

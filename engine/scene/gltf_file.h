@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ struct FileContent {
   std::vector<unsigned char> binary;  // the BIN chunk of a .glb
 };
 
-// A file is a .glb if it begins with that format's magic number, and JSON otherwise.
-FileContent read_scene_file(const std::filesystem::path& file);
+// Bytes are a .glb if they begin with that format's magic number, and JSON otherwise.
+FileContent split_content(std::span<const unsigned char> bytes, const std::filesystem::path& file);
+
+// The whole file.
+std::vector<unsigned char> read_scene_file(const std::filesystem::path& file);
 
 // The size of a regular file; Error names `what` where there is none.
 std::size_t regular_file_size(const std::filesystem::path& file, const std::string& what);

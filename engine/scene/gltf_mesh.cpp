@@ -8,9 +8,6 @@
 namespace qtrace::gltf {
 namespace {
 
-// 7 GB of triangles. Nodes share meshes, so a small file may ask for any number.
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 26U;
-
 bool has_mesh(const Source& source, const PlacedNode& node) {
   return source.model.nodes[node.index].mesh >= 0;
 }
@@ -19,18 +16,19 @@ std::size_t mesh_index(const Source& source, const PlacedNode& node) {
   return static_cast<std::size_t>(source.model.nodes[node.index].mesh);
 }
 
-std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>& nodes) {
-  std::size_t total = 0;
-  for (const PlacedNode& node : nodes) {
-    if (!has_mesh(source, node)) continue;
-    const std::size_t mesh = mesh_index(source, node);
-    for (std::size_t i = 0; i < source.model.meshes[mesh].primitives.size(); ++i) {
-      total += Primitive(source, mesh, i).triangle_count();
-      source.check(total <= kMaxTriangles,
-                   "the scene has more than {} triangles, which is the most supported", kMaxTriangles);
-    }
+// Of a mesh; memory and time are spent on each primitive too.
+struct Count {
+  std::size_t triangles = 0;
+  std::size_t primitives = 0;
+};
+
+Count count_mesh(const Source& source, std::size_t mesh) {
+  Count count;
+  count.primitives = source.model.meshes[mesh].primitives.size();
+  for (std::size_t i = 0; i < count.primitives; ++i) {
+    count.triangles += Primitive(source, mesh, i).triangle_count();
   }
-  return total;
+  return count;
 }
 
 class ObjectBuilder {
@@ -138,8 +136,26 @@ void ObjectBuilder::add(const PlacedNode& node) {
 
 }  // namespace
 
+std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>& nodes,
+                            const SceneLimits& limits) {
+  std::vector<std::optional<Count>> counts(source.model.meshes.size());
+  Count total;
+  for (const PlacedNode& node : nodes) {
+    if (!has_mesh(source, node)) continue;
+    std::optional<Count>& count = counts[mesh_index(source, node)];
+    if (!count) count = count_mesh(source, mesh_index(source, node));
+    total.triangles += count->triangles;
+    total.primitives += count->primitives;
+    source.check(total.triangles <= limits.triangles,
+                 "the scene has more than {} triangles, which is the most supported", limits.triangles);
+    source.check(total.primitives <= limits.primitives,
+                 "the nodes' meshes have more than {} primitives, which is the most supported",
+                 limits.primitives);
+  }
+  return total.triangles;
+}
+
 void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  scene.triangles.reserve(count_triangles(source, nodes));
   ObjectBuilder builder(source, scene);
   for (const PlacedNode& node : nodes) {
     if (has_mesh(source, node)) builder.add(node);

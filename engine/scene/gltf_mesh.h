@@ -1,11 +1,17 @@
 #pragma once
 
+#include "engine/scene/gltf.h"
 #include "engine/scene/gltf_node.h"
 #include "engine/scene/scene.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace qtrace::gltf {
+
+// Before anything walks through them. Error for more than `limits`.
+std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>& nodes,
+                            const SceneLimits& limits);
 
 // Fills scene.triangles and scene.objects, and appends glTF's default material where one is needed.
 // Warnings name the primitives, triangles and normals that cannot be used.

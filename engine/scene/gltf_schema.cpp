@@ -26,7 +26,7 @@ bool is_one_of(std::string_view words, const json& value) {
 }
 
 std::string found(const json& value) {
-  return value.is_structured() ? fmt::format("an {}", value.type_name()) : value.dump().substr(0, 60);
+  return value.is_structured() ? fmt::format("an {}", value.type_name()) : shortened(value.dump(), 60);
 }
 
 bool fits_float(const json& value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
 
 #include <tiny_gltf.h>
 
@@ -18,10 +19,11 @@ struct Source {
   std::string file;  // as the user wrote it
   tinygltf::Model model;
   std::vector<std::string> warnings;
+  std::size_t more_warnings = 0;  // that were left out
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    qtrace::fail("{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
+    qtrace::fail("{}: {}", file, one_line(fmt::format(format, std::forward<Args>(args)...)));
   }
 
   template <class... Args>
@@ -31,16 +33,20 @@ struct Source {
 
   template <class... Args>
   void warn(fmt::format_string<Args...> format, Args&&... args) {
-    warnings.push_back(fmt::format(format, std::forward<Args>(args)...));
+    constexpr std::size_t kMostWarnings = 100;
+    if (warnings.size() == kMostWarnings) {
+      ++more_warnings;
+      return;
+    }
+    warnings.push_back(one_line(fmt::format(format, std::forward<Args>(args)...)));
   }
 };
 
-// "mesh 'teapot'", or "mesh 3" without a name. Control characters would break a message's line.
-inline std::string label(std::string_view kind, std::size_t index, std::string name) {
-  for (char& c : name) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+// "mesh 'teapot'", or "mesh 3" without a name.
+inline std::string label(std::string_view kind, std::size_t index, const std::string& name) {
+  constexpr std::size_t kLongest = 100;
+  return name.empty() ? fmt::format("{} {}", kind, index)
+                      : fmt::format("{} '{}'", kind, one_line(name, kLongest));
 }
 
 // Instead of fmt::join, in whose version 9 GCC 12 sees an overflow that is not there.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 
 namespace qtrace::experiments {
 namespace {
@@ -122,11 +123,70 @@ TEST(Sweep, ErrorsNameTheRun) {
   EXPECT_TRUE(refused(R"([{"m": {")" + std::string(220, 'x') + R"(": {}}}])", "an id of 222 bytes"));
 }
 
+// [first, first + 1, ...]
+std::string numbers(int count, int first = 1) {
+  std::string list;
+  for (int i = 0; i < count; ++i) list += (i == 0 ? "" : ",") + std::to_string(first + i);
+  return "[" + list + "]";
+}
+
+// The product of the first is 0 in 64 bits.
 TEST(Sweep, TooManyRunsAreRefusedBeforeTheyAreMade) {
-  std::string seeds;
-  for (int i = 0; i < 1000; ++i) seeds += (i == 0 ? "" : ",") + std::to_string(i + 1);
-  EXPECT_TRUE(
-      refused("[{\"seed\": [" + seeds + "]}, {\"width\": [" + seeds + "]}]", "more than 100000 runs"));
+  const std::string message = "key 'sweep' asks for {} runs but 100000 are the most; divide it";
+  std::string axes;
+  for (const char* key : {"width", "height", "frames", "warmup_frames", "reference.frames", "rl.bins_phi",
+                          "max_bounces", "reference.seed"}) {
+    axes += fmt::format("{{\"{}\": {}}},", key, numbers(256));
+  }
+  EXPECT_TRUE(refused("[" + axes + "{\"seed\": [1]}]", fmt::format(fmt::runtime(message), "1.844674407e+19")));
+  EXPECT_TRUE(refused("[{\"seed\": " + numbers(1000) + "}, {\"width\": " + numbers(1000) + "}]",
+                      fmt::format(fmt::runtime(message), "1000000")));
+  EXPECT_TRUE(refused("[{\"seed\": " + numbers(100'001, 10'000) + "}]",
+                      fmt::format(fmt::runtime(message), "100001")));
+}
+
+// Found by fuzzing: 9 s, and 70 s under its sanitizers.
+TEST(Sweep, TheMostRunsAreReadInSeconds) {
+  const auto start = std::chrono::steady_clock::now();
+  const Experiment experiment =
+      sweep("[{\"seed\": " + numbers(10'000, 10'000) + "}, {\"width\": " + numbers(10) + "}]",
+            R"("baseline": "3", )");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(experiment.runs.size(), 100'000U);
+  EXPECT_EQ(experiment.runs.back().config.render.seed, 19'999U);
+  EXPECT_EQ(experiment.runs.back().config.render.width, 10);
+  EXPECT_LT(seconds, 4);
+}
+
+// Found by fuzzing: a long list in the base, a hundred thousand times.
+TEST(Sweep, RunsThatFillTheMemoryAreRefused) {
+  const std::string snapshots = "\"frames\": 100000, \"snapshots\": " + numbers(50'000) + ", ";
+  const std::string text = "{\"name\": \"t\", \"scene\": \"s.glb\", " + snapshots +
+                           "\"sweep\": [{\"seed\": " + numbers(1000) + "}]}";
+  const std::string message = "key 'sweep' asks for 1000 runs with configs of up to 288";
+  try {
+    parse_experiment(text, "c.json");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+  }
+}
+
+TEST(Sweep, TooManyAxesAreRefused) {
+  std::string axes;
+  for (int i = 0; i < 60; ++i) axes += fmt::format("{}{{\"m{}\": {{\"a\": {{}}}}}}", i == 0 ? "" : ",", i);
+  EXPECT_TRUE(refused("[" + axes + "]", "key 'sweep' has 60 axes but 50 are the most"));
+}
+
+// Found by fuzzing: each with a suggestion out of all cells.
+TEST(Sweep, ManyPublishedFiguresOfUnknownCellsAreCounted) {
+  std::string cells;
+  for (int i = 0; i < 2000; ++i) cells += fmt::format("{}\"zz{}\": 1", i == 0 ? "" : ",", i);
+  const Experiment experiment =
+      sweep("[{\"width\": " + numbers(2000) + "}]", "\"published\": {\"ms_per_frame\": {" + cells + "}}, ");
+  ASSERT_EQ(experiment.warnings.size(), 11U);
+  EXPECT_NE(experiment.warnings[10].find("'published' names 1990 more"), std::string::npos)
+      << experiment.warnings[10];
 }
 
 TEST(Sweep, SlugsAreSafeFileNames) {

@@ -1,0 +1,107 @@
+// Feeds bytes to the glTF loader: .glb where they begin as one, else .gltf.
+#include "engine/core/check.h"
+#include "engine/scene/gltf.h"
+#include "engine/scene/gltf_file.h"
+#include "tests/fuzz/expect.h"
+#include "tests/fuzz/json_mutator.h"
+
+#include <cmath>
+
+namespace qtrace::fuzz {
+namespace {
+
+// Buffers in files cannot be found in a folder that is not there.
+const char* const kFile = "/nonexistent/folder/fuzz.gltf";
+
+// What the sanitizers can read in a second.
+const SceneLimits kLimits{std::size_t{1} << 16U, std::size_t{1} << 13U, std::size_t{1} << 24U};
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void expect_usable(const Scene& scene) {
+  for (const std::string& warning : scene.warnings) expect_message(warning);
+  expect(!scene.triangles.empty() && !scene.objects.empty(), "a scene must have triangles", "none");
+  for (const Triangle& triangle : scene.triangles) {
+    const bool is_inside =
+        triangle.material < scene.materials.size() && triangle.object < scene.objects.size();
+    expect(is_inside, "indices must stay inside their arrays", "a triangle's");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool finite = is_finite(triangle.position[i]) && std::isfinite(triangle.uv[i].x) &&
+                          std::isfinite(triangle.uv[i].y);
+      expect(finite, "positions and texture coordinates must be finite", "they are not");
+      expect(std::abs(glm::length(triangle.normal[i]) - 1) < 1e-3, "normals must have length 1",
+             std::to_string(glm::length(triangle.normal[i])));
+    }
+  }
+  std::size_t next = 0;
+  for (const Object& object : scene.objects) {
+    expect(object.first_triangle == next && object.triangle_count > 0, "objects must follow each other",
+           object.name);
+    next += object.triangle_count;
+  }
+  expect(next == scene.triangles.size(), "objects must cover all triangles", std::to_string(next));
+  for (const Material& material : scene.materials) {
+    expect(is_finite(material.emission) && is_finite(material.specular_color), "materials must be finite",
+           material.name);
+  }
+}
+
+std::string word(std::size_t value) {
+  std::string bytes;
+  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xffU);
+  return bytes;
+}
+
+// With lengths that fit, which changes of bytes alone would break.
+std::string glb(const gltf::FileContent& content) {
+  const std::string binary(content.binary.begin(), content.binary.end());
+  const std::string chunks =
+      word(content.json.size()) + "JSON" + content.json +
+      (content.has_binary ? word(binary.size()) + std::string("BIN\0", 4) + binary : "");
+  return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
+}
+
+std::string mutate_glb(gltf::FileContent content, std::size_t max_size, unsigned seed) {
+  if (seed % 4 == 0 && content.has_binary) {
+    const std::string binary(content.binary.begin(), content.binary.end());
+    const std::string changed = mutate_bytes(binary, std::min(max_size, binary.size() + 64));
+    content.binary.assign(changed.begin(), changed.end());
+    return glb(content);
+  }
+  const std::string changed = seed % 4 == 1 ? "" : mutate_json(content.json, seed / 4);
+  content.json =
+      changed.empty() ? mutate_bytes(content.json, std::min(max_size, content.json.size() + 64)) : changed;
+  return glb(content);
+}
+
+std::string mutate(std::string_view bytes, std::size_t max_size, unsigned seed) {
+  if (seed % 8 == 0) return mutate_bytes(bytes, max_size);
+  try {
+    const std::vector<unsigned char> copy(bytes.begin(), bytes.end());
+    gltf::FileContent content = gltf::split_content(copy, kFile);
+    if (bytes.starts_with("glTF")) return mutate_glb(std::move(content), max_size, seed / 8);
+    const std::string changed = seed / 8 % 2 == 0 ? mutate_json(content.json, seed / 16) : "";
+    if (!changed.empty()) return changed;
+  } catch (const Error&) {
+    // A broken container: bytes are all that can be changed.
+  }
+  return mutate_bytes(bytes, max_size);
+}
+
+}  // namespace
+}  // namespace qtrace::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    qtrace::fuzz::expect_usable(qtrace::parse_gltf({data, size}, qtrace::fuzz::kFile, qtrace::fuzz::kLimits));
+  } catch (const qtrace::Error& error) {
+    qtrace::fuzz::expect_message(error.what());
+  }
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+  using namespace qtrace::fuzz;
+  return store(mutate(as_text(data, size), max_size, seed), data, max_size);
+}
