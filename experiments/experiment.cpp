@@ -2,6 +2,7 @@
 
 #include "engine/core/check.h"
 #include "engine/tracer/limits.h"
+#include "experiments/calibration.h"
 #include "experiments/disk_space.h"
 #include "experiments/journal.h"
 #include "experiments/plan.h"
@@ -125,13 +126,30 @@ class Work {
           folder_.path().string(), bytes_text(needed), bytes_text(free));
   }
 
+  // With a time budget, all cells grow together.
+  int rounds() {
+    const auto budget = stopper_.seconds_left();
+    if (!budget) return 1;
+    std::vector<Turn> firsts;
+    for (const Turn& turn : turns_) {
+      if (turn.repetition == 0 && !is_done(turn)) firsts.push_back(turn);
+    }
+    const Calibration calibration(experiment_, firsts, context_, scenes_, progress_);
+    double seconds = 0;
+    for (const Turn& turn : firsts) seconds += calibration.seconds(run_of(turn), run_of(turn).config.frames);
+    const int rounds = rounds_for(seconds, *budget);
+    progress_.note(fmt::format("one run of each cell takes about {}: the cells grow in {} rounds",
+                               duration_text(seconds), rounds));
+    return rounds;
+  }
+
   void render() {
     try {
       if (choices_.references_only) {
         for (const Turn& turn : turns_) reference_of(run_of(turn));
         return;
       }
-      for (const Step& step : steps_of(experiment_, turns_, choices_.in_rounds)) {
+      for (const Step& step : steps_of(experiment_, turns_, rounds())) {
         stopper_.check();
         if (!is_done(step.turn)) take(step);
       }

@@ -27,7 +27,6 @@ struct RunChoices {
   bool fail_fast = false;        // the first failed run ends the work
   bool references_only = false;  // renders references alone
   bool merge = false;            // renders nothing: writes the files about the runs that are there
-  bool in_rounds = false;        // all cells grow together, see rounds_of()
 };
 
 // Loads every scene that a run needs and puts out what is strange about them. Throws Error that names the

@@ -5,16 +5,16 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace qtrace::experiments {
 namespace {
 
-constexpr int kRounds = 4;  // the first at an eighth of the frames
-
-int end_of_round(const RunConfig& config, int round) {
+// `halvings` before the last round.
+int end_of_round(const RunConfig& config, int halvings) {
   const std::vector<int> snapshots = config.snapshots.resolve(config.frames);
-  return *std::ranges::lower_bound(snapshots, std::max(1, config.frames >> (kRounds - round)));
+  return *std::ranges::lower_bound(snapshots, std::max(1, config.frames >> halvings));
 }
 
 }  // namespace
@@ -49,18 +49,24 @@ std::vector<Turn> chosen_turns(const Experiment& experiment, const RunChoices& c
   return turns;
 }
 
-std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, bool in_rounds) {
+std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, int rounds) {
   std::vector<Step> steps;
-  for (int round = in_rounds ? 1 : kRounds; round <= kRounds; ++round) {
+  for (int halvings = rounds - 1; halvings >= 0; --halvings) {
     for (const Turn& turn : turns) {
-      const bool grows = in_rounds && turn.repetition == 0;
-      if (!grows && round < kRounds) continue;
-      const int until = end_of_round(experiment.runs[turn.place].config, round);
-      const bool is_new = round == 1 || end_of_round(experiment.runs[turn.place].config, round - 1) < until;
-      if (is_new || !grows) steps.push_back({turn, until});
+      if (turn.repetition > 0 && halvings > 0) continue;
+      const RunConfig& config = experiment.runs[turn.place].config;
+      const int until = end_of_round(config, halvings);
+      const bool is_first = halvings == rounds - 1 || turn.repetition > 0;
+      if (is_first || end_of_round(config, halvings + 1) < until) steps.push_back({turn, until});
     }
   }
   return steps;
+}
+
+int rounds_for(double seconds, double budget) {
+  int rounds = 1;
+  while (rounds < kMostRounds && std::ldexp(seconds, 1 - rounds) > kFirstRound * budget) ++rounds;
+  return rounds;
 }
 
 std::vector<ReferenceSpec> needed_references(const Experiment& experiment, const std::vector<Turn>& turns,

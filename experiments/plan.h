@@ -29,10 +29,16 @@ struct Step {
   int until = 0;
 };
 
-// In rounds, the first runs of all cells grow together: to an eighth, a quarter, a half (rounded up to a
-// snapshot) and the whole of their frames, so that whenever time is up every cell has about as much as any
-// other. Further repetitions, and all runs without rounds, are done in one go.
-std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, bool in_rounds);
+// The first runs of all cells grow together in `rounds` rounds: up to 1/2, 1/4, ... of their frames before
+// the last, each rounded up to a snapshot, so that whenever time is up every cell has about as much as any
+// other. Further repetitions are done in one go, and so is everything in one round.
+std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, int rounds);
+
+// How many rounds: as many as bring the first one, of `seconds` for all cells in full, to this share of the
+// budget.
+inline constexpr double kFirstRound = 0.1;
+inline constexpr int kMostRounds = 12;
+int rounds_for(double seconds, double budget);
 
 // Each reference that these runs need, once, and as good as any of them wishes it: its length shall not
 // depend on the order of the runs.

@@ -157,7 +157,6 @@ void add_run_command(CLI::App& app, RunOptions& options) {
 int run_command(const RunOptions& given) {
   RunOptions options = given;
   if (!options.shard.empty()) options.choices.shard = parse_shard(options.shard);
-  options.choices.in_rounds = options.time_budget > 0;
   check(!options.choices.merge || options.choices.shard.is_whole(),
         "--merge takes all shards together; leave --shard out");
   check(
