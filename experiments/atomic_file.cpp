@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstring>
@@ -20,12 +21,14 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".tmp";
 
-// On a shared file system another machine may have a process of this number.
+// On a shared file system another machine may have a process of this number; and one process may have two
+// files for one target on their way.
 fs::path temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> count = 0;
   std::array<char, HOST_NAME_MAX + 1> host{};
   ::gethostname(host.data(), HOST_NAME_MAX);
-  return target.parent_path() /
-         fmt::format(".{}.{}.{}{}", target.filename().string(), host.data(), ::getpid(), kTemporary);
+  return target.parent_path() / fmt::format(".{}.{}.{}.{}{}", target.filename().string(), host.data(),
+                                            ::getpid(), count++, kTemporary);
 }
 
 // Flushes a file or a folder's list of names to the disk; false with errno where that fails.

@@ -47,7 +47,8 @@ class Work {
         turns_(chosen_turns(experiment, choices)),
         needed_(needed_references(experiment, turns_, scenes)),
         references_(context, choices.root, stopper, progress),
-        journal_(experiment, scenes, context.device(), references_, folder_.path()) {}
+        journal_(experiment, scenes, context.device(), references_, folder_.path()),
+        files_(context.device().software ? FileQueue::Content::at_once : FileQueue::Content::by_thread) {}
 
   ~Work() { progress_.forget(); }
   Work(const Work&) = delete;

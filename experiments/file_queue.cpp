@@ -1,14 +1,11 @@
 #include "experiments/file_queue.h"
 
-#include "experiments/atomic_file.h"
-
-#include <memory>
 #include <set>
 #include <utility>
 
 namespace qtrace::experiments {
 
-FileQueue::FileQueue() : thread_([this] { work(); }) {}
+FileQueue::FileQueue(Content content) : content_(content), thread_([this] { work(); }) {}
 
 FileQueue::~FileQueue() {
   {
@@ -20,22 +17,28 @@ FileQueue::~FileQueue() {
 }
 
 void FileQueue::put(std::filesystem::path target, std::size_t bytes, Write write) {
-  push({std::move(target), bytes, std::move(write)});
+  push({std::move(target), bytes, std::move(write), nullptr});
 }
 
 void FileQueue::put(std::filesystem::path target, std::string content) {
   const std::size_t bytes = content.size();
-  push({std::move(target), bytes, [text = std::move(content)](const std::filesystem::path& temporary) {
-          write_bytes(temporary, text);
-        }});
+  push({std::move(target), bytes,
+        [text = std::move(content)](const std::filesystem::path& temporary) { write_bytes(temporary, text); },
+        nullptr});
 }
 
-void FileQueue::remove(std::filesystem::path target) { push({std::move(target), 0, {}}); }
+void FileQueue::remove(std::filesystem::path target) { push({std::move(target), 0, {}, nullptr}); }
 
 void FileQueue::push(Job job) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return failure_ || bytes_ < kMostBytes; });
   if (failure_) std::rethrow_exception(failure_);
+  if (content_ == Content::at_once && job.write) {
+    lock.unlock();
+    write_now(job);
+    job.bytes = 0;
+    lock.lock();
+  }
   bytes_ += job.bytes;
   waiting_.push_back(std::move(job));
   lock.unlock();
@@ -73,34 +76,36 @@ void FileQueue::work() {
   }
 }
 
+void FileQueue::write_now(Job& job) {
+  job.file = std::make_unique<AtomicFile>(job.target);
+  try {
+    job.write(job.file->temporary());
+  } catch (const DiskFull&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail_to_write(job.target, error.what());
+  }
+  job.write = nullptr;  // and what it holds
+}
+
 // What a later job of the batch would replace is not written at all.
 void FileQueue::carry_out(std::vector<Job>& batch) {
   std::set<std::filesystem::path> later;
   for (std::size_t i = batch.size(); i-- > 0;) {
     if (!later.insert(batch[i].target).second) batch.erase(batch.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  std::vector<std::unique_ptr<AtomicFile>> files;  // one per job; none for a removal
   std::vector<std::filesystem::path> written;
   for (Job& job : batch) {
-    files.push_back(job.write ? std::make_unique<AtomicFile>(job.target) : nullptr);
-    if (!job.write) continue;
-    try {
-      job.write(files.back()->temporary());
-    } catch (const DiskFull&) {
-      throw;
-    } catch (const std::exception& error) {
-      fail_to_write(job.target, error.what());
-    }
-    job.write = nullptr;  // and what it holds
-    written.push_back(files.back()->temporary());
+    if (job.write) write_now(job);
+    if (job.file) written.push_back(job.file->temporary());
   }
   flush_to_disk(written);
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (files[i]) {
-      files[i]->rename();
+  for (const Job& job : batch) {
+    if (job.file) {
+      job.file->rename();
     } else {
       std::error_code ignored;
-      std::filesystem::remove(batch[i].target, ignored);
+      std::filesystem::remove(job.target, ignored);
     }
   }
 }

@@ -2,11 +2,14 @@
 // put, each whole or not at all.
 #pragma once
 
+#include "experiments/atomic_file.h"
+
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -21,7 +24,11 @@ class FileQueue {
  public:
   using Write = std::function<void(const std::filesystem::path& temporary)>;
 
-  FileQueue();
+  // Who makes the files' content: the thread, beside the work; or, between its parts, whoever puts them,
+  // where the work needs all cores and its time is measured. The thread always does what waits for the disk.
+  enum class Content { by_thread, at_once };
+
+  explicit FileQueue(Content content = Content::by_thread);
   ~FileQueue();  // waits until all is written
   FileQueue(const FileQueue&) = delete;
   FileQueue& operator=(const FileQueue&) = delete;
@@ -42,13 +49,16 @@ class FileQueue {
   struct Job {
     std::filesystem::path target;
     std::size_t bytes = 0;
-    Write write;  // none: the target is removed
+    Write write;                       // none: done, or the target is removed
+    std::unique_ptr<AtomicFile> file;  // none: not yet written, or the target is removed
   };
 
   void push(Job job);
   void work();
+  static void write_now(Job& job);
   static void carry_out(std::vector<Job>& batch);
 
+  const Content content_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Job> waiting_;

@@ -55,12 +55,30 @@ TEST(FileQueue, NothingFollowsALostFile) {
     }
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("missing/a: cannot be written"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("missing/a: cannot be written"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(files.flush(), Error);
   files.put(folder / "c", "c");  // said once, it works again
   files.flush();
   EXPECT_EQ(folder.read("c"), "c");
+}
+
+// On request the content is made by the caller; the order and the failures stay.
+TEST(FileQueue, ContentAtOnceIsMadeByTheCaller) {
+  const tests::TempFolder folder;
+  FileQueue files(FileQueue::Content::at_once);
+  const auto caller = std::this_thread::get_id();
+  for (int i = 0; i < 100; ++i) {
+    files.put(folder / "same", 1, [&](const fs::path& temporary) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      write_bytes(temporary, std::to_string(i));
+    });
+  }
+  files.flush();
+  EXPECT_EQ(folder.read("same"), "99");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);  // nothing unfinished is left
+  EXPECT_THROW(files.put(folder / "missing/a", "a"), Error);
 }
 
 TEST(FileQueue, TheDestructorWritesTheRest) {

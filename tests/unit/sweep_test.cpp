@@ -138,7 +138,8 @@ TEST(Sweep, TooManyRunsAreRefusedBeforeTheyAreMade) {
                           "max_bounces", "reference.seed"}) {
     axes += fmt::format("{{\"{}\": {}}},", key, numbers(256));
   }
-  EXPECT_TRUE(refused("[" + axes + "{\"seed\": [1]}]", fmt::format(fmt::runtime(message), "1.844674407e+19")));
+  EXPECT_TRUE(
+      refused("[" + axes + "{\"seed\": [1]}]", fmt::format(fmt::runtime(message), "1.844674407e+19")));
   EXPECT_TRUE(refused("[{\"seed\": " + numbers(1000) + "}, {\"width\": " + numbers(1000) + "}]",
                       fmt::format(fmt::runtime(message), "1000000")));
   EXPECT_TRUE(refused("[{\"seed\": " + numbers(100'001, 10'000) + "}]",
