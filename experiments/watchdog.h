@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace qtrace::experiments {
 
@@ -34,6 +35,22 @@ class Watchdog {
   std::optional<Clock::time_point> deadline_;
   std::function<void()> late_;
   std::thread thread_;
+};
+
+// Armed as long as it lives, however that ends. Without a watchdog, nothing.
+class WatchedTime {
+ public:
+  WatchedTime(Watchdog* watchdog, double seconds, std::function<void()> late) : watchdog_(watchdog) {
+    if (watchdog_ != nullptr) watchdog_->arm(seconds, std::move(late));
+  }
+  ~WatchedTime() {
+    if (watchdog_ != nullptr) watchdog_->disarm();
+  }
+  WatchedTime(const WatchedTime&) = delete;
+  WatchedTime& operator=(const WatchedTime&) = delete;
+
+ private:
+  Watchdog* watchdog_;
 };
 
 }  // namespace qtrace::experiments
