@@ -47,6 +47,22 @@ TEST(FileQueue, DoesNotWaitForTheDisk) {
 TEST(FileQueue, NothingFollowsALostFile) {
   const tests::TempFolder folder;
   FileQueue files;
+  std::atomic<bool> has_begun = false, may_fail = false;
+  files.put(folder / "lost", 1, [&](const fs::path&) {
+    has_begun = true;
+    while (!may_fail) std::this_thread::yield();
+    fail("lost");
+  });
+  while (!has_begun) std::this_thread::yield();
+  files.put(folder / "manifest", "finished");  // waits behind it
+  may_fail = true;
+  EXPECT_THROW(files.flush(), Error);
+  EXPECT_FALSE(fs::exists(folder / "manifest"));
+}
+
+TEST(FileQueue, FailuresAreThrownWhereTheNextFileIsPut) {
+  const tests::TempFolder folder;
+  FileQueue files;
   files.put(folder / "missing/a", "a");
   try {
     for (int i = 0; i < 1000; ++i) {
