@@ -4,6 +4,7 @@
 #include "engine/core/text.h"
 #include "experiments/atomic_file.h"
 
+#include <algorithm>
 #include <set>
 
 namespace qtrace::experiments {
@@ -94,13 +95,18 @@ std::string show(const Json& value, bool bare) {
 }
 
 void set_path(Json& object, std::string_view path, const Json& value) {
+  const auto parts = static_cast<std::size_t>(std::ranges::count(path, '.')) + 1;
+  check(parts <= kMaxDepth, "key '{}' has {} parts; at most {} would be right", shortened(path, kMaxShown),
+        parts, kMaxDepth);
   Json* place = &object;
   std::string_view rest = path;
   for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
     Json& next = (*place)[std::string(rest.substr(0, dot))];
     if (next.is_null()) next = Json::object();
-    check(next.is_object(), "key '{}' is {} but must be an object, because '{}' is set too",
-          path.substr(0, path.size() - rest.size() + dot), show(next), path);
+    if (!next.is_object()) {  // not by check(), which would write down every object on the way
+      fail("key '{}' is {} but must be an object, because '{}' is set too",
+           path.substr(0, path.size() - rest.size() + dot), show(next), path);
+    }
     place = &next;
     rest.remove_prefix(dot + 1);
   }

@@ -52,7 +52,7 @@ class DiskTest(unittest.TestCase):
                                            stderr=subprocess.PIPE, text=True)
                 try:
                     process.wait(moments.uniform(0.3, whole_s * 0.6))
-                    self.assertEqual(process.returncode, 0, process.stderr.read())
+                    self.assertEqual(process.returncode, 0, process.communicate()[1])
                     break
                 except subprocess.TimeoutExpired:
                     pass
