@@ -25,9 +25,7 @@ constexpr std::string_view kTemporary = ".tmp";
 // files for one target on their way.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> count = 0;
-  std::array<char, HOST_NAME_MAX + 1> host{};
-  ::gethostname(host.data(), HOST_NAME_MAX);
-  return target.parent_path() / fmt::format(".{}.{}.{}.{}{}", target.filename().string(), host.data(),
+  return target.parent_path() / fmt::format(".{}.{}.{}.{}{}", target.filename().string(), host_name(),
                                             ::getpid(), count++, kTemporary);
 }
 
@@ -122,6 +120,12 @@ std::string read_file(const fs::path& file) {
   std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   check(!stream.bad(), "{}: cannot be read to its end", file.string());
   return content;
+}
+
+std::string host_name() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  ::gethostname(name.data(), HOST_NAME_MAX);
+  return name.data();
 }
 
 void remove_unfinished_files(const fs::path& folder) {

@@ -54,6 +54,9 @@ std::string read_file(const std::filesystem::path& file);
 // process may be writing there.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
+// Of this machine: what tells processes apart on a shared file system, together with their numbers.
+std::string host_name();
+
 // Makes the folder and those above it. Throws Error that names it.
 void make_folder(const std::filesystem::path& folder);
 

@@ -204,10 +204,13 @@ class Work {
     }
   }
 
-  std::shared_ptr<const Reference> reference_of(const Run& run) {
+  const ReferenceSpec& needed_by(const Run& run) const {
     const std::string hash = reference_spec(run.config, shown_by(run).hash).hash;
-    const auto spec = std::ranges::find(needed_, hash, &ReferenceSpec::hash);
-    return references_.get(*spec, shown_by(run), experiment_.folder());
+    return *std::ranges::find(needed_, hash, &ReferenceSpec::hash);
+  }
+
+  std::shared_ptr<const Reference> reference_of(const Run& run) {
+    return references_.get(needed_by(run), shown_by(run), experiment_.folder());
   }
 
   // Returns whether all is done. A shard leaves the files about all runs to the merge.
@@ -221,9 +224,7 @@ class Work {
     }
     for (const Turn& turn : turns_) {
       const Run& run = run_of(turn);
-      const std::string hash = reference_spec(run.config, shown_by(run).hash).hash;
-      const auto spec = std::ranges::find(needed_, hash, &ReferenceSpec::hash);
-      references_.note(*spec, shown_by(run), experiment_.folder());
+      references_.note(needed_by(run), shown_by(run), experiment_.folder());
     }
     try {
       files_.flush();  // images are read again

@@ -1,6 +1,7 @@
 #include "experiments/folder_lock.h"
 
 #include "engine/core/check.h"
+#include "experiments/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,7 +10,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <climits>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -41,11 +41,7 @@ std::string read_all(int descriptor) {
   return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-std::string this_process() {
-  std::array<char, HOST_NAME_MAX + 1> host{};
-  ::gethostname(host.data(), HOST_NAME_MAX);
-  return fmt::format("process {} on {}", ::getpid(), host.data());
-}
+std::string this_process() { return fmt::format("process {} on {}", ::getpid(), host_name()); }
 
 // For messages alone: nothing depends on it.
 void sign(int descriptor) {

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import subprocess
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -35,6 +36,16 @@ def command(name: str, *more: str) -> list[str]:
 
 def run(folder: Path, name: str, *more: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command(name, *more), cwd=folder, capture_output=True, text=True)
+
+
+def run_whole(folder: Path) -> float:
+    """The undisturbed sweep that others are compared with, in results/whole; seconds that it took."""
+    write_config(folder, "whole")
+    start = time.monotonic()
+    done = run(folder, "whole")
+    if done.returncode != 0:
+        raise AssertionError(done.stderr)
+    return time.monotonic() - start
 
 
 def final_files(folder: Path) -> dict[str, bytes]:

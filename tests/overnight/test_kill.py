@@ -10,7 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-from sweep import CHECKPOINT_S, command, differences, run, unreadable, write_config
+from sweep import CHECKPOINT_S, command, differences, run_whole, unreadable, write_config
 
 KILLS = int(os.environ.get("QTRACE_KILLS", "100"))
 SEED = 7
@@ -21,10 +21,7 @@ class KillTest(unittest.TestCase):
     def test_kills_at_random_moments(self) -> None:
         with tempfile.TemporaryDirectory(prefix="qtrace-kill-") as name:
             folder = Path(name)
-            write_config(folder, "whole")
-            start = time.monotonic()
-            self.assertEqual(run(folder, "whole").returncode, 0)
-            whole_s = time.monotonic() - start
+            whole_s = run_whole(folder)
             moments = random.Random(SEED)
             kills = sweeps = 0
             most_lost = 0.0
