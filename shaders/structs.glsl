@@ -178,7 +178,8 @@ const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
 const int BINDING_SITE_LISTS = 23;
 
-// Texture units.
+// Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit.
+const int BINDING_FETCHED = 24;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;
 

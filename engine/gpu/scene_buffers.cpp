@@ -83,8 +83,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice light
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights)
     : features_(features_of(scene, lights)),
       nodes_("BVH nodes", pack_nodes(bvh)),
-      shapes_("triangle shapes", pack_shapes(scene, bvh), BufferUse::texels),
-      shades_("triangle normals", pack_shades(scene, bvh, lights), BufferUse::texels),
+      shapes_("triangle shapes", pack_shapes(scene, bvh), only_fetched(Texels::float4)),
+      shades_("triangle normals", pack_shades(scene, bvh, lights), only_fetched(Texels::float4)),
       materials_("materials", pack_materials(scene)),
       light_triangles_("light triangles", lights.triangles),
       lights_("lights", lights.lights) {
@@ -98,8 +98,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
 
 void SceneBuffers::bind() const {
   nodes_.bind_storage(BINDING_NODES);
-  shapes_.bind_texels(UNIT_SHAPES);
-  shades_.bind_texels(UNIT_SHADES);
+  shapes_.bind_fetched(UNIT_SHAPES);
+  shades_.bind_fetched(UNIT_SHADES);
   materials_.bind_storage(BINDING_MATERIALS);
   light_triangles_.bind_storage(BINDING_LIGHT_TRIANGLES);
   lights_.bind_storage(BINDING_LIGHTS);
