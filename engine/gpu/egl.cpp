@@ -1,8 +1,5 @@
 #include "engine/gpu/egl.h"
 
-#include "engine/gpu/fetch.h"
-
-#include "engine/core/check.h"
 
 #include <epoxy/gl.h>
 
