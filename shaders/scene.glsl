@@ -2,7 +2,7 @@
 #include "structs.glsl"
 #include "fetch.glsl"
 
-layout(std430, binding = BINDING_NODES) restrict readonly buffer NodeBuffer { Node nodes[]; };
+FETCHED_UVEC4(nodes, UNIT_NODES);
 FETCHED_VEC4(shapes, UNIT_SHAPES);
 FETCHED_VEC4(shades, UNIT_SHADES);
 layout(std430, binding = BINDING_MATERIALS) restrict readonly buffer MaterialBuffer { Material materials[]; };
