@@ -1,0 +1,122 @@
+#include "tests/bench/rays.h"
+
+#include "engine/gpu/structs.h"
+#include "tests/bench/embree.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace qtrace::bench {
+namespace {
+
+constexpr std::uint32_t kSeed = 20200917;
+constexpr int kTile = 8;
+
+// The same numbers with every standard library, unlike std::uniform_real_distribution.
+class Units {
+ public:
+  float next() { return static_cast<float>(bits_() >> 8U) * (1.0F / 16777216.0F); }
+
+ private:
+  std::mt19937 bits_{kSeed};
+};
+
+// Points by area on some of a scene's triangles.
+class SurfacePoints {
+ public:
+  explicit SurfacePoints(const Scene& scene) : scene_(scene) {
+    const auto emits = [&](const Triangle& t) {
+      return scene.materials[t.material].emission != glm::vec3(0);
+    };
+    const bool has_light = std::ranges::any_of(scene.triangles, emits);
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      if (has_light && !emits(scene.triangles[i])) continue;
+      triangles_.push_back(i);
+      area_ += area_of(scene.triangles[i]);
+      areas_.push_back(area_);
+    }
+  }
+
+  glm::vec3 next(Units& units) const {
+    const auto place = std::ranges::upper_bound(areas_, area_ * static_cast<double>(units.next()));
+    const auto index = std::min<std::ptrdiff_t>(place - areas_.begin(), std::ssize(areas_) - 1);
+    const auto& p = scene_.triangles[triangles_[static_cast<std::size_t>(index)]].position;
+    const float root = std::sqrt(units.next());
+    const float along = units.next();
+    return p[0] + root * (1 - along) * (p[1] - p[0]) + root * along * (p[2] - p[0]);
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<double> areas_;  // running sum
+  double area_ = 0;
+};
+
+std::vector<BenchRay> primary_rays(const Camera& camera, int size, Units& units) {
+  std::vector<BenchRay> rays;
+  const glm::mat4& m = camera.world_from_camera;
+  const float up = std::tan(camera.vertical_fov / 2);
+  const auto add = [&](int x, int y) {
+    const float right = 2 * (static_cast<float>(x) + units.next()) / static_cast<float>(size) - 1;
+    const float above = 1 - 2 * (static_cast<float>(y) + units.next()) / static_cast<float>(size);
+    const glm::vec3 direction = -m[2] + up * right * m[0] + up * above * m[1];
+    rays.push_back({m[3], glm::vec4(glm::normalize(direction), 0)});
+  };
+  const int tiles = (size + kTile - 1) / kTile;
+  for (int tile = 0; tile < tiles * tiles; ++tile) {
+    for (int lane = 0; lane < kTile * kTile; ++lane) {
+      // pixel_of_invocation() of camera.glsl: 4 x 2 pixels are neighbouring lanes.
+      const int x = tile % tiles * kTile + (lane >> 3 & 1) * 4 + (lane & 3);
+      const int y = tile / tiles * kTile + (lane >> 4) * 2 + (lane >> 2 & 1);
+      if (x < size && y < size) add(x, y);
+    }
+  }
+  return rays;
+}
+
+glm::vec3 cosine_direction(glm::vec3 normal, Units& units) {
+  const float z = 1 - 2 * units.next();
+  const float phi = 2 * std::numbers::pi_v<float> * units.next();
+  const float sine = std::sqrt(std::max(0.0F, 1 - z * z));
+  // A point on the unit sphere about the normal's end is one by cosine on the hemisphere, seen from its foot.
+  const glm::vec3 sum = normal + glm::vec3(sine * std::cos(phi), sine * std::sin(phi), z);
+  return glm::dot(sum, sum) > 1e-8F ? glm::normalize(sum) : normal;
+}
+
+// Off the surface, as the tracer leaves it: in units in the last place of the largest coordinate.
+glm::vec3 off_surface(glm::vec3 point, glm::vec3 normal) {
+  const float size = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  return point + 4 * gpu::OFFSET_FRACTION * size * normal;
+}
+
+}  // namespace
+
+RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size) {
+  Units units;
+  const SurfacePoints points(scene);
+  RaySets rays;
+  rays.primary = primary_rays(scene.camera, size, units);
+  std::vector<Answer> hits;
+  embree.closest_hits(rays.primary, hits);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].triangle == RTC_INVALID_GEOMETRY_ID) continue;
+    const glm::vec3 direction(rays.primary[i].direction);
+    glm::vec3 normal(glm::normalize(area_vector(scene.triangles[hits[i].triangle].position)));
+    if (glm::dot(normal, direction) > 0) normal = -normal;
+    const glm::vec3 hit = glm::vec3(rays.primary[i].origin) + hits[i].t * direction;
+    const glm::vec3 origin = off_surface(hit, normal);
+    rays.bounce.push_back({glm::vec4(origin, 0), glm::vec4(cosine_direction(normal, units), 0)});
+    // A thousandth of its way before the light, which must not hide itself.
+    constexpr float kEnd = 0.999F;
+    rays.shadow.push_back({glm::vec4(origin, 0), glm::vec4(kEnd * (points.next(units) - origin), 0)});
+  }
+  return rays;
+}
+
+}  // namespace qtrace::bench

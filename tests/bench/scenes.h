@@ -1,0 +1,18 @@
+// Scenes by name, and a generated one of any size.
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <string>
+
+namespace qtrace::bench {
+
+// A closed room, 10 wide, with a light under its ceiling and dented balls on a grid, of about so many
+// triangles; the same ones at every call.
+Scene room(std::uint32_t triangles);
+
+// room:TRIANGLES, else a glTF file. Throws Error that says what is wrong with it.
+Scene bench_scene(const std::string& name);
+
+}  // namespace qtrace::bench

@@ -1,0 +1,25 @@
+#include "tests/bench/timing.h"
+
+#include "experiments/statistics.h"
+
+namespace qtrace::bench {
+namespace {
+
+constexpr double kLowerQuartile = 0.25;
+constexpr double kUpperQuartile = 0.75;
+
+}  // namespace
+
+Spread spread_of(const std::vector<double>& values) {
+  using experiments::quantile;
+  return {quantile(values, 0.5).value_or(0), quantile(values, kLowerQuartile).value_or(0),
+          quantile(values, kUpperQuartile).value_or(0)};
+}
+
+Spread ratio_of(const std::vector<double>& numerators, const std::vector<double>& denominators) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < numerators.size(); ++i) ratios.push_back(numerators[i] / denominators[i]);
+  return spread_of(ratios);
+}
+
+}  // namespace qtrace::bench
