@@ -89,7 +89,8 @@ class SceneBench {
         scene_(bench_scene(name)),
         embree_(scene_, options.threads),
         rays_(make_rays(scene_, embree_, options.size)),
-        buffers_(scene_, build_median_bvh(scene_, kLeafTriangles)) {
+        ordered_(scene_, build_bvh(scene_, BvhKind::sah)),
+        threaded_(scene_, build_bvh(scene_, BvhKind::threaded)) {
     fmt::print("{}: {} triangles; Embree builds in {:.2f} s\n", name, scene_.triangles.size(),
                embree_.build_s());
     std::fflush(stdout);
@@ -101,11 +102,15 @@ class SceneBench {
     const RayBuffers device_rays(rays);
     std::vector<Answer> answers;
     std::vector<Contender> contenders{embree_contender(kind, answers)};
-    buffers_.bind();
     for (const Variant& variant : options_.variants) {
       auto shader = std::make_shared<RayShader>(kind == RayKind::shadow, variant.defines);
-      contenders.push_back({variant.name, [=, this, &device_rays] { shader->trace(context_, device_rays); },
-                            [=, this, &device_rays] {
+      contenders.push_back({variant.name,
+                            [=, this, &device_rays, &variant] {
+                              buffers_of(variant).bind();
+                              shader->trace(context_, device_rays);
+                            },
+                            [=, this, &device_rays, &variant] {
+                              buffers_of(variant).bind();
                               shader->trace(context_, device_rays);
                               return device_rays.answers();
                             }});
@@ -121,7 +126,10 @@ class SceneBench {
   }
 
  private:
-  static constexpr std::uint32_t kLeafTriangles = 4;  // as the tracer has them
+  const gpu::SceneBuffers& buffers_of(const Variant& variant) const {
+    const auto bvh = variant.defines.find("BVH");
+    return bvh != variant.defines.end() && bvh->second == "1" ? threaded_ : ordered_;
+  }
 
   Contender embree_contender(RayKind kind, std::vector<Answer>& answers) const {
     const std::vector<BenchRay>& rays = rays_.of(kind);
@@ -150,7 +158,8 @@ class SceneBench {
   Scene scene_;
   EmbreeScene embree_;
   RaySets rays_;
-  gpu::SceneBuffers buffers_;
+  gpu::SceneBuffers ordered_;
+  gpu::SceneBuffers threaded_;
 };
 
 const std::vector<experiments::Column<Row>>& columns() {
