@@ -37,9 +37,9 @@ std::vector<Aim> aims_at_edges(const Scene& scene, glm::vec3 middle) {
 }
 
 // What `body` makes of every aim: the number of results that are not zero.
-std::size_t count_leaks(const Scene& scene, glm::vec3 middle, const std::string& body) {
+std::size_t count_leaks(const Scene& scene, BvhKind kind, glm::vec3 middle, const std::string& body) {
   device();
-  const Bvh bvh = build_bvh(scene, BvhKind::sah);
+  const Bvh bvh = build_bvh(scene, kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<Aim> aims = aims_at_edges(scene, middle);
@@ -53,7 +53,7 @@ std::size_t count_leaks(const Scene& scene, glm::vec3 middle, const std::string&
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"
            "Hit hit = closest_hit(from, direction);\n" +
                body,
-           kRays)) {
+           kRays, {{"BVH", std::to_string(static_cast<int>(kind))}})) {
     leaks += r.x;
   }
   return leaks;
@@ -97,11 +97,13 @@ Scene bumpy_ball(glm::vec3 middle) {
   return scene;
 }
 
-TEST(Watertight, NoRayPassesBetweenNeighbours) {
+class Watertight : public testing::TestWithParam<BvhKind> {};
+
+TEST_P(Watertight, NoRayPassesBetweenNeighbours) {
   for (const glm::vec3 middle : {glm::vec3(0), glm::vec3(3, -7, 20)}) {
-    EXPECT_EQ(
-        count_leaks(bumpy_ball(middle), middle, "result = uvec4(hit.triangle == NO_TRIANGLE ? 1u : 0u);"),
-        0U);
+    EXPECT_EQ(count_leaks(bumpy_ball(middle), GetParam(), middle,
+                          "result = uvec4(hit.triangle == NO_TRIANGLE ? 1u : 0u);"),
+              0U);
   }
 }
 
@@ -117,7 +119,7 @@ Scene turned_box() {
 }
 
 // From points on the edges of a box, a ray anywhere into the hemisphere of the wall that was met.
-TEST(Watertight, NoRayStartsBehindTheNextWall) {
+TEST_P(Watertight, NoRayStartsBehindTheNextWall) {
   const std::string body =
       "if (hit.triangle == NO_TRIANGLE) { results[index] = uvec4(1u); return; }\n"
       "Surface s = surface_at(hit, direction);\n"
@@ -127,9 +129,12 @@ TEST(Watertight, NoRayStartsBehindTheNextWall) {
       "vec3 away = to_world(local, tangent_of(s.geometric_normal), s.geometric_normal);\n"
       "result = uvec4(closest_hit(ray_origin(s, away), away).triangle == NO_TRIANGLE ? 1u : 0u);";
   for (const Scene& scene : {furnace_box(0.5F, 0), turned_box()}) {
-    EXPECT_EQ(count_leaks(scene, glm::vec3(0), body), 0U);
+    EXPECT_EQ(count_leaks(scene, GetParam(), glm::vec3(0), body), 0U);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Watertight, testing::Values(BvhKind::sah, BvhKind::threaded),
+                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
 
 }  // namespace
 }  // namespace qtrace::test

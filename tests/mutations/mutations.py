@@ -91,6 +91,12 @@ MUTATIONS = [
              "uint end = max(place, place + (entry & ((1u << LIST_COUNT_BITS) - 1u)) - 1u);"),
     Mutation("grid of the wrong axis", "grid.glsl", "* 6u + axis]", "* 6u + (axis ^ 1u)]"),
     Mutation("squares summed as values", "pixel_sum.glsl", "sum.r_squared += x.r * x.r;", "sum.r_squared += x.r;"),
-    Mutation("triangles' edges leak", "traverse.glsl", "1.00000048", "0.9999"),
+    Mutation("flat boxes are missed", "traverse_threaded.glsl", "1.00000048", "0.9999"),
+    Mutation("the nearer child twice", "traverse_ordered.glsl", "stack[top + 1u] = farther;",
+             "stack[top + 1u] = nearer;"),
+    Mutation("boxes end too early", "traverse_ordered.glsl", "vec3(ivec3(corners >> 16u))",
+             "vec3(ivec3(corners >> 16u) - 64)"),
+    Mutation("a triangle short of a leaf", "traverse_ordered.glsl", "uint end = triangle + (link & ((1u << LEAF_BITS) - 1u));",
+             "uint end = triangle + max(1u, (link & ((1u << LEAF_BITS) - 1u)) - 1u);"),
     Mutation("filter without albedo", "atrous.comp", "falloff.y", "falloff.z"),
 ]
