@@ -68,12 +68,13 @@ EmbreeScene::EmbreeScene(const Scene& scene, unsigned threads)
       scene_(rtcNewScene(device_.get())) {
   const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   copy_vertices(geometry, scene);
-  build_s_ = timed([&] {
-               rtcCommitGeometry(geometry);
-               rtcAttachGeometry(scene_.get(), geometry);
-               rtcReleaseGeometry(geometry);
-               rtcCommitScene(scene_.get());
-             }).wall_s;
+  const auto build = [&] {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+  };
+  build_s_ = timed(build, [] {}).wall_s;
   check(rtcGetDeviceError(device_.get()) == RTC_ERROR_NONE, "Embree could not build the scene {}",
         scene.name);
 }

@@ -1,5 +1,7 @@
 // Speed: ./dev bench.
 #include "engine/core/check.h"
+#include "tests/bench/frame_bench.h"
+#include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
 
 #include <CLI/CLI.hpp>
@@ -28,47 +30,71 @@ Variant read_variant(const std::string& text) {
 
 struct Options {
   RayBenchOptions rays{
-      .scenes = {QTRACE_SOURCE_DIR "/configs/scenes/simple.glb", "room:200000", "room:5000000"},
-      .rounds = 9,
-      .size = 512,
-      .threads = std::max(1U, std::thread::hardware_concurrency()),
-      .out = "results/bench"};
+      .scenes = {QTRACE_SOURCE_DIR "/configs/scenes/simple.glb", "room:200000", "room:5000000"}};
   std::vector<std::string> variants;
+  std::string only;
   std::string device;
+  bool quick = false;
 };
 
+// What a full run and a quick one measure, where options do not say otherwise.
+struct Effort {
+  int ray_rounds, ray_size;
+  int frame_rounds, frame_size;
+  int growth_rounds, growth_size;
+  double growth_largest;  // share of each axis
+};
+constexpr Effort kFull{15, 512, 9, 512, 7, 256, 1};
+constexpr Effort kQuick{7, 128, 7, 64, 5, 64, 0.6};
+
 void add_options(CLI::App& app, Options& options) {
-  constexpr int kMostRounds = 1000;
-  constexpr int kMostSize = 1024;
-  app.add_option("--scenes", options.rays.scenes, "glTF files, or room:TRIANGLES")
+  constexpr int kMost = 1024;
+  app.add_flag("--quick", options.quick, "a minute instead of a quarter of an hour, with wider spreads");
+  app.add_option("--only", options.only, "one part of it")
+      ->check(CLI::IsMember({"rays", "frames", "steps", "growth"}));
+  app.add_option("--scenes", options.rays.scenes, "of the rays: glTF files, or room:TRIANGLES")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--variant", options.variants,
                  "NAME:KEY=VALUE,...: the ray query once more, compiled with these defines; may be repeated");
   app.add_option("--rounds", options.rays.rounds, "interleaved rounds; figures are their medians")
-      ->check(CLI::Range(1, kMostRounds))
-      ->capture_default_str();
-  app.add_option("--size", options.rays.size, "pixels along a side of the image that rays belong to")
-      ->check(CLI::Range(1, kMostSize))
-      ->capture_default_str();
+      ->check(CLI::Range(1, kMost));
+  app.add_option("--size", options.rays.size, "pixels along a side of all images")
+      ->check(CLI::Range(1, kMost));
   app.add_option("--threads", options.rays.threads, "of Embree; llvmpipe uses one per core")
-      ->check(CLI::Range(1, kMostRounds))
-      ->capture_default_str();
-  app.add_option("--out", options.rays.out, "folder of the CSV files")->capture_default_str();
+      ->check(CLI::Range(1, kMost))
+      ->default_val(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("--out", options.rays.out, "folder of the CSV files")->default_val("results/bench");
   app.add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
 }
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("Speed of ray queries beside Embree 3", "qtrace_bench");
+  CLI::App app("What takes time, and ray queries beside Embree 3", "qtrace_bench");
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
+  const Effort& effort = options.quick ? kQuick : kFull;
+  const auto chosen = [](int wanted, int otherwise) { return wanted > 0 ? wanted : otherwise; };
+  const auto wants = [&](std::string_view part) { return options.only.empty() || options.only == part; };
+  const int rounds = options.rays.rounds;
+  const int size = options.rays.size;
   options.rays.variants.push_back({"qtrace", {}});
   for (const std::string& text : options.variants) options.rays.variants.push_back(read_variant(text));
+  options.rays.rounds = chosen(rounds, effort.ray_rounds);
+  options.rays.size = chosen(size, effort.ray_size);
+  const std::filesystem::path& out = options.rays.out;
   const gpu::Context context(options.device);
-  fmt::print("{}, Embree 3 on {} threads\n", context.device().renderer, options.rays.threads);
-  std::filesystem::create_directories(options.rays.out);
-  bench_rays(context, options.rays);
+  fmt::print("{}, Embree 3 on {} threads; each figure is a median [and quartiles] over rounds\n",
+             context.device().renderer, options.rays.threads);
+  std::filesystem::create_directories(out);
+  if (wants("rays")) bench_rays(context, options.rays);
+  if (wants("frames")) {
+    bench_frames(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+  }
+  if (wants("growth")) {
+    bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),
+                           effort.growth_largest, out});
+  }
   return 0;
 }
 

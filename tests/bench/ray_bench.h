@@ -22,7 +22,7 @@ struct RayBenchOptions {
   int rounds = 0;
   int size = 0;          // pixels along a side of the image that the rays are those of
   unsigned threads = 0;  // of Embree
-  std::filesystem::path out;
+  std::filesystem::path out = {};
 };
 
 // Prints a table and writes rays.csv and ray_rounds.csv.

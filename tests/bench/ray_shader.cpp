@@ -71,10 +71,9 @@ RayShader::RayShader(bool occlusion, gpu::Defines defines)
     : program_(gpu::assemble("bench_rays.comp", kShader,
                              gpu::with_fetch(with_kind(occlusion, std::move(defines))))) {}
 
-void RayShader::trace(const gpu::Context& context, const RayBuffers& rays) const {
+void RayShader::trace(const RayBuffers& rays) const {
   rays.bind();
   program_.dispatch(rays.groups());
-  context.finish();
 }
 
 }  // namespace qtrace::bench

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/context.h"
 #include "engine/gpu/program.h"
 #include "tests/bench/rays.h"
 
@@ -32,8 +31,8 @@ class RayShader {
  public:
   RayShader(bool occlusion, gpu::Defines defines);
 
-  // Waits. What is traced in must be bound.
-  void trace(const gpu::Context& context, const RayBuffers& rays) const;
+  // Does not wait. What is traced in must be bound.
+  void trace(const RayBuffers& rays) const;
 
  private:
   gpu::Program program_;

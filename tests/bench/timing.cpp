@@ -2,6 +2,8 @@
 
 #include "experiments/statistics.h"
 
+#include <fmt/format.h>
+
 namespace qtrace::bench {
 namespace {
 
@@ -14,6 +16,14 @@ Spread spread_of(const std::vector<double>& values) {
   using experiments::quantile;
   return {quantile(values, 0.5).value_or(0), quantile(values, kLowerQuartile).value_or(0),
           quantile(values, kUpperQuartile).value_or(0)};
+}
+
+Spread operator*(double scale, const Spread& spread) {
+  return {scale * spread.median, scale * spread.low, scale * spread.high};
+}
+
+std::string text_of(const Spread& spread) {
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", spread.median, spread.low, spread.high);
 }
 
 Spread ratio_of(const std::vector<double>& numerators, const std::vector<double>& denominators) {
