@@ -13,8 +13,8 @@ struct LightSample {
   float pdf;          // per solid angle, the choice of the light included
   float probability;  // of that choice
   uint light;
-  vec3 origin;        // shadow ray: from here ...
-  vec3 segment;       // ... to here, over t in (0, 1)
+  vec3 origin;        // shadow ray, from the light: neighbouring ones share more of their way than from the surface
+  vec3 segment;       // to the surface, over t in (0, 1)
 };
 
 // Walker's alias method: one look-up whatever the number of slots. The product of word and count holds the
@@ -82,10 +82,10 @@ LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
   bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != 0.0));
   result.radiance = lit ? triangle.radiance.rgb : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
-  result.origin = ray_origin(s, result.direction);
-  // The segment ends off the light on the side that is looked at, by what the test at t = 1 can round off: it
-  // grows with the coordinates of either end and with the distance.
-  float offset = max(max(triangle.edge1.w, s.offset), OFFSET_FRACTION * t) * (facing < 0.0 ? -1.0 : 1.0);
-  result.segment = point + offset * normal - result.origin;
+  // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
+  // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.
+  result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
+  s.offset = max(s.offset, OFFSET_FRACTION * t);
+  result.segment = ray_origin(s, result.direction) - result.origin;
   return result;
 }

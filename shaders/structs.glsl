@@ -48,7 +48,7 @@ struct Material {      // glTF metallic-roughness
 // to its power by Walker's alias method.
 struct LightTriangle {
   vec4 vertex;    // xyz: first vertex
-  vec4 edge1;     // w: length by which shadow rays end off the triangle
+  vec4 edge1;     // w: length by which shadow rays start off the triangle
   vec4 edge2;     // w: probability of choosing it within its light / its area (per area)
   vec4 normal;    // xyz: unit, out of the front face
   vec4 radiance;  // rgb, w: 1 where the back face emits too
