@@ -64,10 +64,8 @@ class Packer {
 
   WideNodes pack() {
     if (bvh_.nodes.size() == 1) {
-      // Its second child is a box that no ray enters.
-      const uvec3 box = corners(bvh_.nodes[0]);
-      const uint nowhere = static_cast<uint>(kSteps);
-      result_.nodes.push_back({uvec4(box, nowhere), uvec4(nowhere, nowhere, link(0), END_OF_WALK)});
+      // The second child is the leaf once more, in a box at the corner of the grid, where there is nothing.
+      result_.nodes.push_back({uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))});
       return std::move(result_);
     }
     for (std::uint32_t i = 0; i < bvh_.nodes.size(); ++i) {

@@ -68,15 +68,14 @@ TEST(WideNodes, FlatScenesHaveAGridToo) {
   expect_all_enclosed(bvh, {0.5F, 5, 0.5F}, 0);
 }
 
-// The root is a leaf: what stands beside it is a box that ends before it begins.
-TEST(WideNodes, OneLeafStandsBesideNothing) {
+// The root is a leaf: both children are, the second one where no ray finds more.
+TEST(WideNodes, OneLeafStandsTwice) {
   Bvh bvh{BvhKind::sah, {{{0, 0, 0}, {1, 1, 1}, kNoNode, 0, 3}}, {0, 1, 2}};
   const WideNodes wide = pack_wide_nodes(bvh, glm::vec3(0));
   ASSERT_EQ(wide.nodes.size(), 1U);
   EXPECT_EQ(wide.nodes[0].b.z, LEAF_LINK | 3U);
-  EXPECT_EQ(wide.nodes[0].b.w, END_OF_WALK);
-  const Box nothing = unpacked(wide.grid, {wide.nodes[0].a.w, wide.nodes[0].b.x, wide.nodes[0].b.y});
-  for (int k = 0; k < 3; ++k) EXPECT_GT(nothing.lo[k], nothing.hi[k]);
+  EXPECT_EQ(wide.nodes[0].b.w, LEAF_LINK | 3U);
+  expect_enclosed(wide.grid, uvec3(wide.nodes[0].a), bvh.nodes[0], 0);
 }
 
 }  // namespace
