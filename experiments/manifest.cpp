@@ -21,7 +21,8 @@ Json device_json(const gpu::DeviceInfo& device) {
           {"vendor", device.vendor},
           {"gl_version", device.gl_version},
           {"platform", device.platform},
-          {"software", device.software}};
+          {"software", device.software},
+          {"buffer_fetch", device.fetch}};
 }
 
 Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {

@@ -1,9 +1,10 @@
 // The scene's buffers.
 #include "structs.glsl"
+#include "fetch.glsl"
 
-layout(std430, binding = BINDING_NODES) restrict readonly buffer NodeBuffer { Node nodes[]; };
-layout(binding = UNIT_SHAPES) uniform samplerBuffer shapes;
-layout(binding = UNIT_SHADES) uniform samplerBuffer shades;
+FETCHED_UVEC4(nodes, UNIT_NODES);
+FETCHED_VEC4(shapes, UNIT_SHAPES);
+FETCHED_VEC4(shades, UNIT_SHADES);
 layout(std430, binding = BINDING_MATERIALS) restrict readonly buffer MaterialBuffer { Material materials[]; };
 layout(std430, binding = BINDING_LIGHT_TRIANGLES) restrict readonly buffer LightTriangleBuffer {
   LightTriangle light_triangles[];
@@ -14,11 +15,11 @@ layout(location = LOCATION_FRAME) uniform uint frame_number;
 
 // Vertex 0, 1 or 2 of a triangle, and what is stored with it.
 vec3 vertex_of(uint triangle, uint vertex) {
-  return texelFetch(shapes, int(3u * triangle + vertex)).xyz;
+  return fetch(shapes, 3u * triangle + vertex).xyz;
 }
 
 vec4 shade_of(uint triangle, uint vertex) {
-  return texelFetch(shades, int(3u * triangle + vertex));
+  return fetch(shades, 3u * triangle + vertex);
 }
 
 const float PI = 3.14159265358979;

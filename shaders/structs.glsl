@@ -3,10 +3,23 @@
 // (tests/gpu/layout_test.cpp compares every offset with the driver's). Integers that share a vec4 with
 // floats are stored by their bits: floatBitsToUint() reads them.
 
-// Bounding volume hierarchy in preorder; the hit link of an inner node is the next node.
+// Of the report's bounding volume hierarchy, in preorder; the hit link of an inner node is the next node.
 struct Node {
   vec4 lo;  // xyz: lower corner, w: bits of the leaf's triangles (first << LEAF_BITS | count), 0 for inner nodes
   vec4 hi;  // xyz: upper corner, w: bits of the miss link, NO_NODE at the end
+};
+
+// Of the hierarchy that is walked in order: both children. A corner is one of a grid of 65,535 steps along each axis
+// over the scene (NodeGrid), in 16 bits.
+struct WideNode {
+  uvec4 a;  // x, y, z: first child's box: lower corner | upper corner << 16, w: second child's along x
+  uvec4 b;  // x, y: second child's along y and z, z, w: links to the children (traverse_ordered.glsl)
+};
+
+// A uniform block.
+struct NodeGrid {
+  vec4 lo;     // xyz: corner 0
+  vec4 scale;  // xyz: steps per unit
 };
 
 // In the order of the leaves; what an intersection test reads. Shaders fetch it member by member, as texels.
@@ -154,7 +167,7 @@ struct Parameters {
 };
 
 const int BINDING_PARAMETERS = 0;
-const int BINDING_NODES = 0;
+const int BINDING_NODE_GRID = 1;  // uniform
 const int BINDING_MATERIALS = 3;
 const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
@@ -178,9 +191,11 @@ const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
 const int BINDING_SITE_LISTS = 23;
 
-// Texture units.
+// Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit.
+const int BINDING_FETCHED = 24;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;
+const int UNIT_NODES = 2;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -196,6 +211,9 @@ const int NO_CELL = -1;             // of a hit
 const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
 const uint LEAF_BITS = 4u;
+const uint LEAF_LINK = 0x80000000u;
+const uint END_OF_WALK = 0xffffffffu;
+const uint BVH_DEPTH = 64u;
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
 const uint LIST_BOX_BITS = 10u;
 const uint LIST_COUNT_BITS = 6u;

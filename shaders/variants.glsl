@@ -25,3 +25,5 @@
 #define SITE_SEARCH_LISTS 0
 #define SITE_SEARCH_TREE 1
 #define SITE_SEARCH_LINEAR 2
+#define BVH_SAH 0
+#define BVH_THREADED 1

@@ -1,32 +1,17 @@
 #include "engine/accel/bvh.h"
 
+#include "engine/accel/bounds.h"
 #include "engine/core/check.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
-#include <limits>
 #include <span>
 
 namespace qtrace {
 namespace {
 
-struct Bounds {
-  glm::vec3 lo{std::numeric_limits<float>::max()};
-  glm::vec3 hi{std::numeric_limits<float>::lowest()};
+constexpr std::uint32_t kLeafTriangles = 4;
 
-  void add(const glm::vec3& p) {
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-};
-
-glm::vec3 centre(const Triangle& t) {
-  // Halved first: the sum of two large coordinates could overflow.
-  const glm::vec3 lo = glm::min(t.position[0], glm::min(t.position[1], t.position[2]));
-  const glm::vec3 hi = glm::max(t.position[0], glm::max(t.position[1], t.position[2]));
-  return lo * 0.5F + hi * 0.5F;
-}
+glm::vec3 centre(const Triangle& t) { return bounds_of(t).centre(); }
 
 int longest_axis(const Bounds& b) {
   const glm::vec3 size = b.hi - b.lo;
@@ -49,7 +34,7 @@ class Builder {
   // Median splits halve the count, so the depth is at most log2 of the triangles.
   void build(std::uint32_t first, std::uint32_t count, std::uint32_t miss) {
     const std::size_t index = bvh_.nodes.size();
-    const Bounds bounds = bounds_of(first, count);
+    const Bounds bounds = bounds_of_range(first, count);
     bvh_.nodes.push_back({bounds.lo, bounds.hi, miss, first, count});
     if (count <= leaf_size_) return;
     const std::uint32_t left = count / 2;
@@ -65,10 +50,10 @@ class Builder {
     build(first + left, count - left, miss);
   }
 
-  Bounds bounds_of(std::uint32_t first, std::uint32_t count) const {
+  Bounds bounds_of_range(std::uint32_t first, std::uint32_t count) const {
     Bounds bounds;
     for (const std::uint32_t i : std::span(bvh_.order).subspan(first, count)) {
-      for (const glm::vec3& p : scene_.triangles[i].position) bounds.add(p);
+      bounds.add(bounds_of(scene_.triangles[i]));
     }
     return bounds;
   }
@@ -93,6 +78,11 @@ Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size) {
   check(leaf_size >= 1 && leaf_size <= 15, "BVH leaf size {} is outside 1..15", leaf_size);
   check(!scene.triangles.empty(), "scene {} has no triangles: there is nothing to render", scene.name);
   return Builder(scene, leaf_size).take();
+}
+
+Bvh build_bvh(const Scene& scene, BvhKind kind) {
+  return kind == BvhKind::sah ? build_sah_bvh(scene, kLeafTriangles)
+                              : build_median_bvh(scene, kLeafTriangles);
 }
 
 }  // namespace qtrace

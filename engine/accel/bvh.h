@@ -1,7 +1,7 @@
-// The report's bounding volume hierarchy: split at the median of the triangles' centres along the longest
-// axis, traversed without a stack by hit and miss links (section 4.1).
+// Bounding volume hierarchies: two ways to build one, with the same nodes.
 #pragma once
 
+#include "engine/core/settings.h"
 #include "engine/scene/scene.h"
 
 #include <glm/vec3.hpp>
@@ -12,9 +12,12 @@
 namespace qtrace {
 
 inline constexpr std::uint32_t kNoNode = 0xffffffff;
+// Deepest leaf, the root being at 0: shaders keep a stack of as many links (BVH_DEPTH in
+// shaders/structs.glsl).
+inline constexpr int kMaxBvhDepth = 62;
 
-// Nodes stand in preorder: the hit link of an inner node is the next node. A leaf goes on at its miss link
-// either way.
+// Nodes stand in preorder: the hit link of an inner node, its first child, is the next node. Its second child
+// is the first one's miss link. A leaf goes on at its miss link either way.
 struct BvhNode {
   glm::vec3 lo{0.0F};
   glm::vec3 hi{0.0F};
@@ -24,11 +27,20 @@ struct BvhNode {
 };
 
 struct Bvh {
+  BvhKind kind = BvhKind::threaded;  // how shaders are to walk it
   std::vector<BvhNode> nodes;
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
 
+// The report's (section 4.1): split at the median of the triangles' centres along the longest axis.
 // `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.
 Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size);
+
+// Split where the surface area heuristic expects the least work (Wald 2007, "On fast Construction of
+// SAH-based Bounding Volume Hierarchies": binned). The same whatever the number of threads. As above.
+Bvh build_sah_bvh(const Scene& scene, std::uint32_t leaf_size);
+
+// What a tracer uses: small leaves, as every ray of a SIMD group pays for the longest leaf among them.
+Bvh build_bvh(const Scene& scene, BvhKind kind);
 
 }  // namespace qtrace

@@ -12,6 +12,7 @@ namespace qtrace {
 enum class Sampler { bsdf, uniform, rl };
 enum class Nee { none, one_ray, two_ray };
 enum class LightChoice { uniform, power, learned };
+enum class BvhKind { sah, threaded };
 
 template <>
 struct EnumNames<Sampler> {
@@ -24,6 +25,10 @@ struct EnumNames<Nee> {
 template <>
 struct EnumNames<LightChoice> {
   static constexpr std::array<std::string_view, 3> values{"uniform", "power", "learned"};
+};
+template <>
+struct EnumNames<BvhKind> {
+  static constexpr std::array<std::string_view, 2> values{"sah", "threaded"};
 };
 
 struct RenderSettings {
@@ -39,6 +44,7 @@ struct RenderSettings {
   LightChoice lights = LightChoice::power;
   double light_floor = 0.2;
   int light_prior = 2;
+  BvhKind bvh = BvhKind::sah;
   RlSettings rl;
 
   bool operator==(const RenderSettings&) const = default;
@@ -90,6 +96,11 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
                  "0: no guess, by power at first",
                  0, 1000000},
         settings.light_prior);
+  visit(
+      KnobInfo{"bvh", "",
+               "bounding volume hierarchy: split by surface area and walked in the order of distance, or the "
+               "report's, split at medians and walked by links; images differ by rounding alone"},
+      settings.bvh);
   visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},
         settings.rl);
 }

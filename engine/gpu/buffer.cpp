@@ -1,10 +1,13 @@
 #include "engine/gpu/buffer.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/fetch.h"
+#include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace qtrace::gpu {
@@ -12,15 +15,41 @@ namespace {
 
 constexpr double kBytesPerMib = 1024.0 * 1024.0;
 constexpr std::size_t kSmallest = 16;  // an empty scene part still needs something to bind
-constexpr std::size_t kTexelBytes = 16;
+
+struct TexelFormat {
+  GLenum format;
+  std::size_t bytes;
+};
+
+TexelFormat format_of(Texels texels) {
+  switch (texels) {
+    case Texels::float1:
+      return {GL_R32F, 4};
+    case Texels::uint1:
+      return {GL_R32UI, 4};
+    case Texels::float4:
+      return {GL_RGBA32F, 16};
+    case Texels::uint4:
+      return {GL_RGBA32UI, 16};
+    case Texels::none:
+      break;
+  }
+  fail("a buffer without texels has no format");
+}
+
+std::size_t limit(GLenum name) {
+  GLint64 most = 0;
+  glGetInteger64v(name, &most);
+  return static_cast<std::size_t>(most);
+}
 
 }  // namespace
 
 std::size_t most_buffer_bytes(BufferUse use) {
-  GLint64 most = 0;
-  const bool is_storage = use == BufferUse::storage;
-  glGetInteger64v(is_storage ? GL_MAX_SHADER_STORAGE_BLOCK_SIZE : GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-  return static_cast<std::size_t>(most) * (is_storage ? 1 : kTexelBytes);
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+  if (use.storage || best_fetch() == Fetch::storage) most = limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  if (use.texels == Texels::none) return most;
+  return std::min(most, limit(GL_MAX_TEXTURE_BUFFER_SIZE) * format_of(use.texels).bytes);
 }
 
 void check_buffer_size(const std::string& name, std::size_t bytes, BufferUse use) {
@@ -32,6 +61,7 @@ void check_buffer_size(const std::string& name, std::size_t bytes, BufferUse use
 
 Buffer::Buffer(std::string name, std::size_t bytes, BufferUse use) : name_(std::move(name)), bytes_(bytes) {
   check_buffer_size(name_, bytes, use);
+  texels_ = use.texels;
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
@@ -41,9 +71,9 @@ Buffer::Buffer(std::string name, std::size_t bytes, BufferUse use) : name_(std::
          name_);
   }
   clear();
-  if (use == BufferUse::storage) return;
+  if (use.texels == Texels::none) return;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
-  glTextureBuffer(texture_, GL_RGBA32F, id_);
+  glTextureBuffer(texture_, format_of(use.texels).format, id_);
 }
 
 Buffer::~Buffer() {
@@ -55,12 +85,14 @@ Buffer::Buffer(Buffer&& other) noexcept
     : name_(std::move(other.name_)),
       bytes_(other.bytes_),
       id_(std::exchange(other.id_, 0)),
+      texels_(other.texels_),
       texture_(std::exchange(other.texture_, 0)) {}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(bytes_, other.bytes_);
   std::swap(id_, other.id_);
+  std::swap(texels_, other.texels_);
   std::swap(texture_, other.texture_);
   return *this;
 }
@@ -73,7 +105,12 @@ void Buffer::bind_uniform(int binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id_);
 }
 
-void Buffer::bind_texels(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), texture_); }
+void Buffer::bind_fetched(int unit) const {
+  const auto slot = static_cast<GLuint>(unit);
+  glBindTextureUnit(slot, texture_);
+  glBindImageTexture(slot, texture_, 0, GL_FALSE, 0, GL_READ_ONLY, format_of(texels_).format);
+  bind_storage(BINDING_FETCHED + unit);
+}
 
 void Buffer::bind_dispatch() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_); }
 

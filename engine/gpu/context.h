@@ -16,6 +16,7 @@ struct DeviceInfo {
   std::string gl_version;  // GL_VERSION: OpenGL and driver version
   std::string platform;    // how EGL reached it: "device" or "surfaceless"
   bool software = false;   // computes on the CPU
+  std::string fetch;       // how shaders fetch buffers that they only read: "texture", "image" or "storage"
   std::string problem;     // why it cannot be used; empty where it can
 };
 

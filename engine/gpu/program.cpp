@@ -1,6 +1,7 @@
 #include "engine/gpu/program.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/fetch.h"
 #include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
@@ -9,6 +10,10 @@
 
 namespace qtrace::gpu {
 namespace {
+
+// What earlier passes and the host have written, however the next pass reads it.
+constexpr GLbitfield kAllWritesSeen = GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
 std::string shader_log(GLuint shader) {
   GLint length = 0;
@@ -41,8 +46,13 @@ GLuint compile(const ShaderSource& source) {
 
 }  // namespace
 
+Defines with_fetch(Defines defines) {
+  defines.try_emplace("FETCH", std::to_string(static_cast<int>(best_fetch())));
+  return defines;
+}
+
 Program::Program(const std::string& name, const Defines& defines)
-    : Program(assemble(name, shader_file(name), defines)) {}
+    : Program(assemble(name, shader_file(name), with_fetch(defines))) {}
 
 Program::Program(const ShaderSource& source) {
   const GLuint shader = compile(source);
@@ -73,13 +83,13 @@ void Program::set_frame(std::uint32_t frame) { glProgramUniform1ui(id_, LOCATION
 
 void Program::dispatch(std::uint32_t x, std::uint32_t y) const {
   glUseProgram(id_);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(kAllWritesSeen);
   glDispatchCompute(x, y, 1);
 }
 
 void Program::dispatch_indirect(const Buffer& size) const {
   glUseProgram(id_);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(kAllWritesSeen | GL_COMMAND_BARRIER_BIT);
   size.bind_dispatch();
   glDispatchComputeIndirect(0);
 }

@@ -19,16 +19,6 @@ constexpr float kDielectricF0 = 0.04F;
 
 float as_float(uint bits) { return std::bit_cast<float>(bits); }
 
-std::vector<Node> pack_nodes(const Bvh& bvh) {
-  std::vector<Node> nodes;
-  nodes.reserve(bvh.nodes.size());
-  for (const BvhNode& node : bvh.nodes) {
-    const uint leaf = node.count > 0 ? (node.first << LEAF_BITS) | node.count : 0;
-    nodes.push_back({vec4(node.lo, as_float(leaf)), vec4(node.hi, as_float(node.miss))});
-  }
-  return nodes;
-}
-
 std::vector<TriangleShape> pack_shapes(const Scene& scene, const Bvh& bvh) {
   std::vector<TriangleShape> shapes;
   shapes.reserve(bvh.order.size());
@@ -82,9 +72,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice light
 
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights)
     : features_(features_of(scene, lights)),
-      nodes_("BVH nodes", pack_nodes(bvh)),
-      shapes_("triangle shapes", pack_shapes(scene, bvh), BufferUse::texels),
-      shades_("triangle normals", pack_shades(scene, bvh, lights), BufferUse::texels),
+      nodes_(bvh, glm::vec3(scene.camera.world_from_camera[3])),
+      shapes_("triangle shapes", pack_shapes(scene, bvh), only_fetched(Texels::float4)),
+      shades_("triangle normals", pack_shades(scene, bvh, lights), only_fetched(Texels::float4)),
       materials_("materials", pack_materials(scene)),
       light_triangles_("light triangles", lights.triangles),
       lights_("lights", lights.lights) {
@@ -97,9 +87,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
 }
 
 void SceneBuffers::bind() const {
-  nodes_.bind_storage(BINDING_NODES);
-  shapes_.bind_texels(UNIT_SHAPES);
-  shades_.bind_texels(UNIT_SHADES);
+  nodes_.bind();
+  shapes_.bind_fetched(UNIT_SHAPES);
+  shades_.bind_fetched(UNIT_SHADES);
   materials_.bind_storage(BINDING_MATERIALS);
   light_triangles_.bind_storage(BINDING_LIGHT_TRIANGLES);
   lights_.bind_storage(BINDING_LIGHTS);

@@ -4,6 +4,7 @@
 #include "engine/accel/bvh.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/light_table.h"
+#include "engine/gpu/node_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/scene/scene.h"
 
@@ -35,7 +36,7 @@ class SceneBuffers {
 
   SceneFeatures features_;
   std::vector<std::string> warnings_;
-  Buffer nodes_;
+  NodeBuffers nodes_;
   Buffer shapes_;
   Buffer shades_;
   Buffer materials_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 namespace qtrace::gpu {
 
 using glm::uvec2;
+using glm::uvec3;
 using glm::uvec4;
 using glm::vec4;
 using uint = std::uint32_t;

@@ -129,7 +129,7 @@ CellBuffers CellBuffers::voronoi(const Scene& scene, const RlSettings& settings)
   if (settings.site_search == SiteSearch::lists) {
     lists = build_site_lists(scene, sites, nodes, settings.cell_normal_threshold);
     const std::size_t bytes = bytes_of(lists);
-    if (bytes > std::min(gpu::most_buffer_bytes(gpu::BufferUse::storage), kMostListBytes)) {
+    if (bytes > std::min(gpu::most_buffer_bytes(), kMostListBytes)) {
       sites.warnings.push_back(
           fmt::format("the lists of {} sites would need {} MiB: their tree is searched instead, as by "
                       "rl.site_search tree",

@@ -14,8 +14,6 @@
 namespace qtrace {
 namespace {
 
-constexpr std::uint32_t kLeafTriangles = 4;
-
 // Of the paths that are traced for comparison.
 RenderSettings truth_settings(RenderSettings settings) {
   settings.sampler = Sampler::bsdf;
@@ -78,7 +76,7 @@ class Sums {
 struct Inspection::State {
   State(const Scene& scene, const RenderSettings& wanted)
       : settings(wanted),
-        buffers(scene, build_median_bvh(scene, kLeafTriangles), truth_settings(wanted).lights),
+        buffers(scene, build_bvh(scene, wanted.bvh), truth_settings(wanted).lights),
         cells(scene, wanted.rl),
         film(1, 1),
         parameter_block("parameters", sizeof(gpu::Parameters)),

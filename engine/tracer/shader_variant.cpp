@@ -43,6 +43,7 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
   gpu::Defines defines;
   defines["SAMPLER"] = number(settings.sampler);
   defines["NEE"] = number(settings.nee);
+  defines["BVH"] = number(settings.bvh);
   defines["LIGHT_COLUMNS"] = "0";
   if (features.specular) defines["HAS_SPECULAR"] = "1";
   if (std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))

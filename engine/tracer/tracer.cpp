@@ -17,9 +17,6 @@
 namespace qtrace {
 namespace {
 
-// Small leaves: every ray of a SIMD group pays for the longest leaf among them.
-constexpr std::uint32_t kLeafTriangles = 4;
-
 gpu::Defines joined(gpu::Defines defines, const gpu::Defines& more) {
   defines.insert(more.begin(), more.end());
   return defines;
@@ -31,7 +28,7 @@ struct Tracer::State {
   State(const gpu::Context& gpu_context, const Scene& scene, const RenderSettings& wanted,
         const gpu::Defines& more)
       : context(gpu_context),
-        buffers(scene, build_median_bvh(scene, kLeafTriangles), wanted.lights),
+        buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height),
         parameter_block("parameters", sizeof(gpu::Parameters)),
@@ -170,7 +167,7 @@ FirstHitImage Tracer::first_hit() const {
   gpu::Buffer output("first hits", pixels * sizeof(gpu::FirstHit));
   s.bind();
   output.bind_storage(gpu::BINDING_OUTPUT);
-  const gpu::Program program("first_hit.comp", {});
+  const gpu::Program program("first_hit.comp", shader_defines(s.settings, s.buffers.features()));
   const auto [x, y] = s.groups();
   program.dispatch(x, y);
   s.context.finish();

@@ -45,7 +45,7 @@ struct Effort {
   double growth_largest;  // share of each axis
 };
 constexpr Effort kFull{15, 512, 9, 512, 7, 256, 1};
-constexpr Effort kQuick{7, 128, 7, 64, 5, 64, 0.6};
+constexpr Effort kQuick{7, 256, 7, 64, 5, 64, 0.6};
 
 void add_options(CLI::App& app, Options& options) {
   constexpr int kMost = 1024;
@@ -78,7 +78,7 @@ int run(int argc, char** argv) {
   const auto wants = [&](std::string_view part) { return options.only.empty() || options.only == part; };
   const int rounds = options.rays.rounds;
   const int size = options.rays.size;
-  options.rays.variants.push_back({"qtrace", {}});
+  options.rays.variants = {{"qtrace", {}}, {"threaded", {{"BVH", "1"}}}};
   for (const std::string& text : options.variants) options.rays.variants.push_back(read_variant(text));
   options.rays.rounds = chosen(rounds, effort.ray_rounds);
   options.rays.size = chosen(size, effort.ray_size);

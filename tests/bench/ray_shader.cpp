@@ -7,19 +7,19 @@ namespace qtrace::bench {
 namespace {
 
 constexpr std::size_t kGroup = 64;
-constexpr int kRayUnit = 15;  // texture unit beside those of structs.glsl
+constexpr int kRayUnit = 7;  // beside those of structs.glsl
 
 // A negative t stands for a loop that was cut short.
 constexpr std::string_view kShader = R"(#version 450 core
 #include "traverse.glsl"
 layout(local_size_x = 64) in;
-layout(binding = 15) uniform samplerBuffer rays;
+FETCHED_VEC4(rays, 7);
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer AnswerBuffer { vec2 answers[]; };
 
 void main() {
   int index = int(gl_GlobalInvocationID.x);
-  vec3 origin = texelFetch(rays, 2 * index).xyz;
-  vec3 direction = texelFetch(rays, 2 * index + 1).xyz;
+  vec3 origin = fetch(rays, 2 * index).xyz;
+  vec3 direction = fetch(rays, 2 * index + 1).xyz;
 #ifdef OCCLUSION
   vec2 answer = vec2(is_occluded(origin, direction) ? 1.0 : 0.0, 0.0);
 #else
@@ -46,11 +46,11 @@ gpu::Defines with_kind(bool occlusion, gpu::Defines defines) {
 
 RayBuffers::RayBuffers(const std::vector<BenchRay>& rays)
     : count_(rays.size()),
-      rays_("bench rays", padded(rays), gpu::BufferUse::texels),
+      rays_("bench rays", padded(rays), gpu::only_fetched(gpu::Texels::float4)),
       answers_("bench answers", rays_.bytes() / sizeof(BenchRay) * sizeof(Answer)) {}
 
 void RayBuffers::bind() const {
-  rays_.bind_texels(kRayUnit);
+  rays_.bind_fetched(kRayUnit);
   answers_.bind_storage(gpu::BINDING_OUTPUT);
 }
 
@@ -68,7 +68,8 @@ std::vector<Answer> RayBuffers::answers() const {
 }
 
 RayShader::RayShader(bool occlusion, gpu::Defines defines)
-    : program_(gpu::assemble("bench_rays.comp", kShader, with_kind(occlusion, std::move(defines)))) {}
+    : program_(gpu::assemble("bench_rays.comp", kShader,
+                             gpu::with_fetch(with_kind(occlusion, std::move(defines))))) {}
 
 void RayShader::trace(const RayBuffers& rays) const {
   rays.bind();

@@ -56,7 +56,7 @@ std::vector<glm::vec4> hits(const gpu::Defines& defines, const std::string& vect
 void expect_cells_of_hits(const Scene& scene, int resolution) {
   device();
   const RenderSettings settings = grid_settings(resolution);
-  const gpu::SceneBuffers buffers(scene, build_median_bvh(scene, 4), settings.lights);
+  const gpu::SceneBuffers buffers(scene, build_bvh(scene, BvhKind::sah), settings.lights);
   buffers.bind();
   const CellBuffers cells(scene, settings.rl);
   cells.bind();

@@ -110,7 +110,7 @@ TEST_F(LightChoices, ByPower) {
 TEST_F(LightChoices, Uniform) {
   settings_.lights = LightChoice::uniform;
   choose(LightChoice::uniform, Sampler::rl);
-  buffers_.emplace(scene_, build_median_bvh(scene_, 4), LightChoice::uniform);
+  buffers_.emplace(scene_, build_bvh(scene_, BvhKind::sah), LightChoice::uniform);
   buffers_->bind();
   expect_stated({0.25, 0.25, 0.25, 0.25});
 }

@@ -90,7 +90,7 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
 // and of their reflections, uniform directions in each bin, the radiance of the wall that is met.
 std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settings, const Scene& scene) {
   const std::vector<CellState>& states = tracer.table()->cells().states();
-  const gpu::SceneBuffers buffers(scene, build_median_bvh(scene, 4));
+  const gpu::SceneBuffers buffers(scene, build_bvh(scene, BvhKind::sah));
   std::string radiance = "float radiance[6] = float[6](";
   for (int w = 0; w < 6; ++w) {
     radiance += (w > 0 ? ", " : "") + std::to_string(kWallRadiance[w]);

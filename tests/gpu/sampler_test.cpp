@@ -86,7 +86,7 @@ class Stage {
       : tilt_(tilt_of(c)),
         scene_(make_scene(c)),
         settings_(make_settings(c)),
-        buffers_(scene_, build_median_bvh(scene_, 4)) {
+        buffers_(scene_, build_bvh(scene_, BvhKind::sah)) {
     defines_ = shader_defines(settings_, buffers_.features());
     if (c.sampler == Sampler::rl) {
       table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_);

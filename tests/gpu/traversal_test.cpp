@@ -40,7 +40,7 @@ std::vector<RayPair> random_rays(const Bvh& bvh) {
 
 void expect_same_hits(const Scene& scene) {
   device();
-  const Bvh bvh = build_median_bvh(scene, 4);
+  const Bvh bvh = build_bvh(scene, BvhKind::sah);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<RayPair> rays = random_rays(bvh);
@@ -81,7 +81,7 @@ TEST(Traversal, AgreesWithTheOracle) {
 
 TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
-  const Bvh bvh = build_median_bvh(scene, 4);
+  const Bvh bvh = build_bvh(scene, BvhKind::sah);
   const std::vector<RayPair> rays = random_rays(bvh);
   for (std::size_t i = 0; i < 200; ++i) {
     const Ray ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};

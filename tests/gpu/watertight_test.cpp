@@ -39,7 +39,7 @@ std::vector<Aim> aims_at_edges(const Scene& scene, glm::vec3 middle) {
 // What `body` makes of every aim: the number of results that are not zero.
 std::size_t count_leaks(const Scene& scene, glm::vec3 middle, const std::string& body) {
   device();
-  const Bvh bvh = build_median_bvh(scene, 4);
+  const Bvh bvh = build_bvh(scene, BvhKind::sah);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<Aim> aims = aims_at_edges(scene, middle);

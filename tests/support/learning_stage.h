@@ -31,7 +31,7 @@ class LearningStage : public testing::Test {
 
   // Anew, from scene and settings as they are.
   void build() {
-    buffers_.emplace(scene_, build_median_bvh(scene_, 4));
+    buffers_.emplace(scene_, build_bvh(scene_, BvhKind::sah));
     defines_ = shader_defines(settings_, buffers_->features());
     table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_->features()), defines_);
     const gpu::Parameters parameters =

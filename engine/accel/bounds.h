@@ -1,0 +1,34 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <limits>
+
+namespace qtrace {
+
+struct Bounds {
+  glm::vec3 lo{std::numeric_limits<float>::max()};
+  glm::vec3 hi{std::numeric_limits<float>::lowest()};
+
+  void add(const glm::vec3& p) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  void add(const Bounds& other) {
+    lo = glm::min(lo, other.lo);
+    hi = glm::max(hi, other.hi);
+  }
+  // Halved first: the sum of two large coordinates could overflow.
+  glm::vec3 centre() const { return lo * 0.5F + hi * 0.5F; }
+};
+
+inline Bounds bounds_of(const Triangle& triangle) {
+  Bounds bounds;
+  for (const glm::vec3& p : triangle.position) bounds.add(p);
+  return bounds;
+}
+
+}  // namespace qtrace

@@ -1,0 +1,25 @@
+#include "engine/gpu/fetch.h"
+
+#include <epoxy/gl.h>
+
+namespace qtrace::gpu {
+
+Fetch best_fetch() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const bool is_llvmpipe = renderer != nullptr && std::string(renderer).find("llvmpipe") != std::string::npos;
+  return is_llvmpipe ? Fetch::image : Fetch::texture;
+}
+
+std::string fetch_name(Fetch fetch) {
+  switch (fetch) {
+    case Fetch::texture:
+      return "texture";
+    case Fetch::image:
+      return "image";
+    case Fetch::storage:
+      return "storage";
+  }
+  return "";
+}
+
+}  // namespace qtrace::gpu

@@ -1,0 +1,18 @@
+// How shaders fetch the buffers that they only read. What is fastest depends on the driver; the results are
+// the same.
+#pragma once
+
+#include <string>
+
+namespace qtrace::gpu {
+
+// In the order of the values in shaders/fetch.glsl.
+enum class Fetch { texture, image, storage };
+
+// Of the current context. llvmpipe turns loads of storage into loops over the lanes of a SIMD register, and
+// loads of images into gathers (./dev bench compares all three); GPUs have a cache for textures.
+Fetch best_fetch();
+
+std::string fetch_name(Fetch fetch);
+
+}  // namespace qtrace::gpu

@@ -1,0 +1,92 @@
+// Traversal with a stack, the nearer child first. Both children of a node lie in the node, their boxes in 16 bits a
+// corner on a grid over the scene, rounded outwards by more than the tests below can be wrong (WideNode in structs.glsl).
+#include "intersect.glsl"
+
+layout(std140, binding = BINDING_NODE_GRID) uniform NodeGridBlock { NodeGrid node_grid; };
+
+// t where the ray crosses the planes of the grid: plane * slope + start.
+struct GridRay {
+  vec3 slope;
+  vec3 start;
+  uvec3 near;  // bits by which a word is shifted for the corner that the ray meets first
+};
+
+GridRay grid_ray(vec3 origin, vec3 direction) {
+  GridRay ray;
+  ray.slope = safe_inverse(direction * node_grid.scale.xyz);
+  ray.start = -((origin - node_grid.lo.xyz) * node_grid.scale.xyz) * ray.slope;
+  ray.near = mix(uvec3(0u), uvec3(16u), lessThan(direction, vec3(0.0)));
+  return ray;
+}
+
+// The bits of floats that are not negative are in the order of the floats, and those of negative ones below.
+// Returns the bits of t where the ray enters the box, NO_CHILD where it does not.
+const int NO_CHILD = 0x7fffffff;
+
+int enter_box(GridRay ray, uvec3 corners, int t_max) {
+  vec3 near_plane = vec3(ivec3((corners >> ray.near) & 0xffffu));
+  vec3 far_plane = vec3(ivec3((corners >> (16u - ray.near)) & 0xffffu));
+  ivec3 near = floatBitsToInt(fma(near_plane, ray.slope, ray.start));
+  ivec3 far = floatBitsToInt(fma(far_plane, ray.slope, ray.start));
+  int enter = max(max(near.x, near.y), max(near.z, 0));
+  int leave = min(min(far.x, far.y), min(far.z, t_max));
+  return enter <= leave ? enter : NO_CHILD;
+}
+
+// A link to a node is its index; to a leaf, LEAF_LINK | first triangle << LEAF_BITS | triangles. END_OF_WALK is no leaf.
+bool is_leaf(uint link) {
+  return link >= LEAF_LINK;
+}
+
+// Bodies stand in an `if`, here and in every loop whose lanes end at different turns: llvmpipe (Mesa 22.3) computes
+// a value that leaves a loop again in the later turns of other lanes, unless a branch guards it.
+void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
+  GridRay ray = grid_ray(origin, direction);
+  Shear shear = shear_of(direction);
+  uint stack[BVH_DEPTH];
+  stack[0] = END_OF_WALK;
+  uint top = 0u;  // of the stack: where the next link is taken from
+  uint link = 0u;
+  bool searching = true;
+  do {
+    bool descending = !is_leaf(link);
+    do {
+      if (descending) {
+        uvec4 a = fetch(nodes, 2u * link);
+        uvec4 b = fetch(nodes, 2u * link + 1u);
+        int t_max = floatBitsToInt(hit.t);
+        int first = enter_box(ray, a.xyz, t_max);
+        int second = enter_box(ray, uvec3(a.w, b.xy), t_max);
+        bool swap = second < first;
+        uint nearer = swap ? b.w : b.z;
+        uint farther = swap ? b.z : b.w;
+        uint popped = stack[top];
+        bool any = min(first, second) != NO_CHILD;
+        bool both = max(first, second) != NO_CHILD;
+        stack[top + 1u] = farther;
+        top = both ? top + 1u : any ? top : top - 1u;
+        link = any ? nearer : popped;
+        descending = !is_leaf(link);
+      }
+    } while (descending);
+    loop_was_cut = loop_was_cut || !is_leaf(link);
+    bool more = link != END_OF_WALK;
+    uint triangle = (link & ~LEAF_LINK) >> LEAF_BITS;
+    uint end = triangle + (link & ((1u << LEAF_BITS) - 1u));
+    do {
+      if (more) {
+        test_triangle(origin, shear, triangle, hit);
+        ++triangle;
+        more = triangle < end;
+      }
+    } while (more);
+    loop_was_cut = loop_was_cut || more;
+    bool done = link == END_OF_WALK || (any_hit && hit.triangle != NO_TRIANGLE);
+    if (!done) {
+      link = stack[top];
+      --top;
+    }
+    searching = !done && link != END_OF_WALK;
+  } while (searching);
+  loop_was_cut = loop_was_cut || searching;
+}
