@@ -3,6 +3,7 @@
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
+#include "tests/bench/step_bench.h"
 
 #include <CLI/CLI.hpp>
 
@@ -90,6 +91,9 @@ int run(int argc, char** argv) {
   if (wants("rays")) bench_rays(context, options.rays);
   if (wants("frames")) {
     bench_frames(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+  }
+  if (wants("steps")) {
+    bench_steps(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),
