@@ -11,7 +11,7 @@ import pandas as pd
 from analysis.command import AnalysisError
 
 TEXT = {"run", "cell", "scene", "status", "reason", "verdict", "verdict_reason", "started", "baseline",
-        "reference_hash", "config_hash"}
+        "reference_hash", "config_hash", "kind", "tracer", "method", "step", "measured", "axis", "stage"}
 BOOLEAN = {"is_warmup", "at_reference_floor"}
 
 
