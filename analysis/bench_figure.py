@@ -18,6 +18,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
+from matplotlib.ticker import EngFormatter, NullLocator
 
 from analysis import command, style
 from analysis.csv_file import read_csv
@@ -31,12 +32,16 @@ WIDTH = 14.0  # inches
 ROW_HEIGHT = 3.6
 DPI = 130
 WHOLE = "whole frame"
+SHORT = EngFormatter(sep="")  # 5M
 
 
 def load_parts(folder: Path) -> dict[str, pd.DataFrame]:
     """The parts that are there. Raises AnalysisError for a folder without any."""
-    parts = {name: read_csv(folder / f"{name}.csv", [*KEYS[name], *FIGURES[name], RATIOS[name], f"cpu_{RATIOS[name]}"])
-             for name in KEYS if (folder / f"{name}.csv").is_file()}
+    parts = {}
+    for name in KEYS:
+        needed = [*KEYS[name], *FIGURES[name], RATIOS[name], f"cpu_{RATIOS[name]}"]
+        if (folder / f"{name}.csv").is_file():
+            parts[name] = read_csv(folder / f"{name}.csv", needed, [*KEYS[name], "measured"])
     if not parts:
         raise command.AnalysisError(f"{folder}: holds none of {', '.join(f'{name}.csv' for name in KEYS)}; "
                                     "`./dev bench` writes them")
@@ -49,7 +54,7 @@ def load_parts(folder: Path) -> dict[str, pd.DataFrame]:
 def is_software(folder: Path) -> bool:
     file = folder / "manifest.json"
     try:
-        return bool(json.loads(file.read_text(encoding="utf-8"))["software"])
+        return bool(json.loads(file.read_text(encoding="utf-8"))["device"]["software"])
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise command.AnalysisError(f"{file}: does not say what was measured on: {error}") from error
 
@@ -123,8 +128,10 @@ def _draw_growth(figure: Figure, place: SubplotSpec, growth: pd.DataFrame) -> No
             axes.errorbar(rows.value, rows.wall_ms, yerr=_whiskers(rows, "wall_ms"), label=method, **looks[method])
         axes.set_xscale("log")
         axes.set_yscale("log")
-        for axis, limits in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
-            style.format_log_axis(axis, *limits)
+        style.format_log_axis(axes.yaxis, *axes.get_ylim())
+        values = sorted(set(growth[growth.axis == name].value))
+        axes.set_xticks(values, [SHORT.format_eng(float(f"{value:.2g}")) for value in values], fontsize=8)
+        axes.xaxis.set_minor_locator(NullLocator())
         axes.set_xlabel(name)
         axes.set_ylabel("ms per frame")
         axes.legend(fontsize=7, frameon=False)

@@ -1,7 +1,7 @@
 // Speed: ./dev bench.
 #include "engine/core/check.h"
 #include "experiments/atomic_file.h"
-#include "experiments/version.h"
+#include "experiments/manifest.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
@@ -9,7 +9,6 @@
 
 #include <embree3/rtcore.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -75,12 +74,10 @@ void add_options(CLI::App& app, Options& options) {
 
 // What the figures were measured on.
 void write_manifest(const std::filesystem::path& out, const gpu::DeviceInfo& device, unsigned threads) {
-  const nlohmann::ordered_json manifest{{"program", experiments::software()},
-                                        {"device", device.renderer},
-                                        {"gl_version", device.gl_version},
-                                        {"software", device.software},
-                                        {"embree", RTC_VERSION_STRING},
-                                        {"embree_threads", threads}};
+  const experiments::Json manifest{{"program", experiments::program_json()},
+                                   {"device", experiments::device_json(device)},
+                                   {"embree", RTC_VERSION_STRING},
+                                   {"embree_threads", threads}};
   experiments::write_file(out / "manifest.json", manifest.dump(2) + "\n");
 }
 
