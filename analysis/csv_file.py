@@ -23,8 +23,8 @@ def _is_text(name: str) -> bool:
     return name in TEXT or name.startswith("axis:")
 
 
-def _column(name: str, fields: list[str], file: Path) -> pd.Series:
-    if _is_text(name):
+def _column(name: str, fields: list[str], file: Path, labels: Iterable[str]) -> pd.Series:
+    if _is_text(name) or name in labels:
         return pd.Series(fields, dtype=object)
     try:
         # Through int where possible: seeds and counts may be larger than a double can hold exactly.
@@ -39,8 +39,8 @@ def _column(name: str, fields: list[str], file: Path) -> pd.Series:
     return pd.Series(values, dtype=None if values else float)
 
 
-def read_csv(file: Path, needed: Iterable[str]) -> pd.DataFrame:
-    """All columns: labels as text, numbers with every digit. Empty numbers are NaN."""
+def read_csv(file: Path, needed: Iterable[str], labels: Iterable[str] = ()) -> pd.DataFrame:
+    """All columns: labels (those given, too) as text, numbers with every digit. Empty numbers are NaN."""
     try:
         with file.open(encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(stream, strict=True))
@@ -58,4 +58,4 @@ def read_csv(file: Path, needed: Iterable[str]) -> pd.DataFrame:
         if len(row) != len(header):
             raise LoadError(f"{file}: record {number} has {len(row)} fields, but the header has {len(header)}")
     fields = list(zip(*body)) or [()] * len(header)
-    return pd.DataFrame({name: _column(name, list(fields[i]), file) for i, name in enumerate(header)})
+    return pd.DataFrame({name: _column(name, list(fields[i]), file, labels) for i, name in enumerate(header)})

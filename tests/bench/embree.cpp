@@ -3,32 +3,28 @@
 #include "engine/core/check.h"
 #include "tests/bench/timing.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <string>
-#include <thread>
 
 namespace qtrace::bench {
 namespace {
 
-// Small enough that no thread waits for another at the end, large enough that the counter costs nothing.
+// Small enough that no thread waits long for another at the end.
 constexpr std::size_t kChunk = 2048;
 
-// Calls work(first, end) for chunks of `count` things on `threads` threads.
+// Calls work(first, end) for chunks of `count` things, on threads that stay between calls.
 template <class Work>
 void in_chunks(std::size_t count, unsigned threads, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto take = [&] {
-    while (true) {
-      const std::size_t first = next.fetch_add(kChunk);
-      if (first >= count) return;
-      work(first, std::min(count, first + kChunk));
-    }
-  };
-  std::vector<std::jthread> others;
-  for (unsigned i = 1; i < threads; ++i) others.emplace_back(take);
-  take();
+  tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk),
+                      [&](const auto& range) { work(range.begin(), range.end()); });
+  });
 }
 
 void set_ray(RTCRay& ray, const BenchRay& from, float most) {

@@ -1,4 +1,4 @@
-// Embree 3, as its users call it: one ray at a time, on threads of our own.
+// Embree 3, as its users call it: one ray at a time, on the threads that it builds with.
 #pragma once
 
 #include "engine/scene/scene.h"

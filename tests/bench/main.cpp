@@ -1,9 +1,13 @@
 // Speed: ./dev bench.
 #include "engine/core/check.h"
+#include "experiments/atomic_file.h"
+#include "experiments/manifest.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
+#include "tests/bench/step_bench.h"
 
+#include <embree3/rtcore.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -45,7 +49,7 @@ struct Effort {
   double growth_largest;  // share of each axis
 };
 constexpr Effort kFull{15, 512, 9, 512, 7, 256, 1};
-constexpr Effort kQuick{7, 128, 7, 64, 5, 64, 0.6};
+constexpr Effort kQuick{5, 256, 7, 128, 5, 96, 0.6};
 
 void add_options(CLI::App& app, Options& options) {
   constexpr int kMost = 1024;
@@ -68,6 +72,15 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
 }
 
+// What the figures were measured on.
+void write_manifest(const std::filesystem::path& out, const gpu::DeviceInfo& device, unsigned threads) {
+  const experiments::Json manifest{{"program", experiments::program_json()},
+                                   {"device", experiments::device_json(device)},
+                                   {"embree", RTC_VERSION_STRING},
+                                   {"embree_threads", threads}};
+  experiments::write_file(out / "manifest.json", manifest.dump(2) + "\n");
+}
+
 int run(int argc, char** argv) {
   Options options;
   CLI::App app("What takes time, and ray queries beside Embree 3", "qtrace_bench");
@@ -78,7 +91,7 @@ int run(int argc, char** argv) {
   const auto wants = [&](std::string_view part) { return options.only.empty() || options.only == part; };
   const int rounds = options.rays.rounds;
   const int size = options.rays.size;
-  options.rays.variants.push_back({"qtrace", {}});
+  options.rays.variants = {{"qtrace", {}}, {"threaded", {{"BVH", "1"}}}};
   for (const std::string& text : options.variants) options.rays.variants.push_back(read_variant(text));
   options.rays.rounds = chosen(rounds, effort.ray_rounds);
   options.rays.size = chosen(size, effort.ray_size);
@@ -87,9 +100,13 @@ int run(int argc, char** argv) {
   fmt::print("{}, Embree 3 on {} threads; each figure is a median [and quartiles] over rounds\n",
              context.device().renderer, options.rays.threads);
   std::filesystem::create_directories(out);
+  write_manifest(out, context.device(), options.rays.threads);
   if (wants("rays")) bench_rays(context, options.rays);
   if (wants("frames")) {
     bench_frames(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+  }
+  if (wants("steps")) {
+    bench_steps(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),

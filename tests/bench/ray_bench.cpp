@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace qtrace::bench {
 namespace {
@@ -28,6 +29,7 @@ struct Row {
   unsigned threads;
   std::string tracer;
   std::size_t rounds;
+  double build_s;             // of its hierarchy, on the host
   std::size_t disagreements;  // with Embree
   Spread mrays_per_s;
   Spread speed;      // Embree's time over this one's, by the clock
@@ -53,49 +55,61 @@ class SceneBench {
         name_(name),
         scene_(bench_scene(name)),
         embree_(scene_, options.threads),
-        rays_(make_rays(scene_, embree_, options.size)),
-        ordered_(scene_, build_bvh(scene_, BvhKind::sah)),
-        threaded_(scene_, build_bvh(scene_, BvhKind::threaded)) {
-    fmt::print("{}: {} triangles; Embree builds in {:.2f} s\n", name, scene_.triangles.size(),
+        rays_(make_rays(scene_, embree_, options.size)) {
+    if (name.ends_with(".glb") || name.ends_with(".gltf")) name_ = scene_.name;
+    fmt::print("{}: {} triangles; built by Embree in {:.3g} s", name_, scene_.triangles.size(),
                embree_.build_s());
+    for (const Variant& variant : options.variants) build(bvh_of(variant));
+    fmt::print("\n");
     std::fflush(stdout);
   }
 
   void run(RayKind kind, std::vector<Row>& rows, std::vector<RoundRow>& rounds) const {
     const std::vector<BenchRay>& rays = rays_.of(kind);
     if (rays.empty()) return;
-    const RayBuffers device_rays(rays);
-    const std::vector<RayShader> shaders = shaders_of(kind);
+    // Answers of each apart: what is compared in the end is what the last round was timed at.
     std::vector<Answer> truth;
+    std::vector<RayBuffers> asked;
+    const std::vector<RayShader> shaders = shaders_of(kind);
     std::vector<Contender> contenders{
         {"Embree", [&] { return timed([&] { ask_embree(kind, truth); }, [] {}); }}};
     for (std::size_t i = 0; i < shaders.size(); ++i) {
-      contenders.push_back(
-          {options_.variants[i].name,
-           [&, i] { return timed([&] { trace(shaders[i], i, device_rays); }, [&] { context_.finish(); }); }});
+      asked.emplace_back(rays);
+      contenders.push_back({options_.variants[i].name, [&, i] {
+                              buffers_of(options_.variants[i]).bind();
+                              return timed([&] { shaders[i].trace(asked[i]); }, [&] { context_.finish(); });
+                            }});
     }
     run_rounds(contenders, options_.rounds);
     const std::string kind_name(kRayKinds[static_cast<std::size_t>(kind)]);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       std::size_t disagreements = 0;
+      double build_s = embree_.build_s();
       if (i > 0) {
-        trace(shaders[i - 1], i - 1, device_rays);
-        disagreements = count_disagreements(truth, device_rays.answers());
+        build_s = build_s_.at(bvh_of(options_.variants[i - 1]));
+        disagreements = count_disagreements(truth, asked[i - 1].answers());
       }
-      rows.push_back(row_of(kind_name, rays.size(), contenders[i], contenders.front(), disagreements));
+      rows.push_back(
+          row_of(kind_name, rays.size(), contenders[i], contenders.front(), build_s, disagreements));
       append_rounds(rounds, {name_, kind_name, contenders[i].name}, contenders[i]);
     }
   }
 
  private:
-  const gpu::SceneBuffers& buffers_of(const Variant& variant) const {
-    const auto bvh = variant.defines.find("BVH");
-    return bvh != variant.defines.end() && bvh->second == "1" ? threaded_ : ordered_;
+  // By the variant's define, as in shaders/variants.glsl.
+  static BvhKind bvh_of(const Variant& variant) {
+    const auto kind = variant.defines.find("BVH");
+    return kind != variant.defines.end() && kind->second == "1" ? BvhKind::threaded : BvhKind::sah;
   }
 
-  void trace(const RayShader& shader, std::size_t variant, const RayBuffers& rays) const {
-    buffers_of(options_.variants[variant]).bind();
-    shader.trace(rays);
+  const gpu::SceneBuffers& buffers_of(const Variant& variant) const { return buffers_.at(bvh_of(variant)); }
+
+  void build(BvhKind kind) {
+    if (buffers_.contains(kind)) return;
+    Bvh bvh;
+    build_s_[kind] = timed([&] { bvh = build_bvh(scene_, kind); }, [] {}).wall_s;
+    buffers_.try_emplace(kind, scene_, bvh);
+    fmt::print(", {} in {:.3g} s", enum_name(kind), build_s_[kind]);
   }
 
   std::vector<RayShader> shaders_of(RayKind kind) const {
@@ -114,7 +128,7 @@ class SceneBench {
   }
 
   Row row_of(const std::string& kind, std::size_t rays, const Contender& c, const Contender& embree,
-             std::size_t disagreements) const {
+             double build_s, std::size_t disagreements) const {
     std::vector<double> speeds;
     for (const double seconds : c.wall_s) speeds.push_back(1e-6 * static_cast<double>(rays) / seconds);
     return {name_,
@@ -124,6 +138,7 @@ class SceneBench {
             options_.threads,
             c.name,
             c.wall_s.size(),
+            build_s,
             disagreements,
             spread_of(speeds),
             ratio_of(embree.wall_s, c.wall_s),
@@ -136,8 +151,8 @@ class SceneBench {
   Scene scene_;
   EmbreeScene embree_;
   RaySets rays_;
-  gpu::SceneBuffers ordered_;
-  gpu::SceneBuffers threaded_;
+  std::map<BvhKind, gpu::SceneBuffers> buffers_;
+  std::map<BvhKind, double> build_s_;
 };
 
 const std::vector<experiments::Column<Row>>& columns() {
@@ -149,6 +164,7 @@ const std::vector<experiments::Column<Row>>& columns() {
       {"tracer", [](const Row& r) { return r.tracer; }},
       {"embree_threads", [](const Row& r) { return std::uint64_t{r.threads}; }},
       {"rounds", [](const Row& r) { return std::uint64_t{r.rounds}; }},
+      {"build_s", [](const Row& r) { return r.build_s; }},
       {"mrays_per_s", [](const Row& r) { return r.mrays_per_s.median; }},
       {"mrays_per_s_low", [](const Row& r) { return r.mrays_per_s.low; }},
       {"mrays_per_s_high", [](const Row& r) { return r.mrays_per_s.high; }},
