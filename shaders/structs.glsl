@@ -197,6 +197,9 @@ const int UNIT_NODES = 2;
 const int UNIT_MATERIALS = 5;
 const int UNIT_LIGHTS = 6;
 const int UNIT_LIGHT_TRIANGLES = 7;
+const int UNIT_SAMPLES = 8;
+const int UNIT_OUTLIERS = 9;
+const int UNIT_SUMS = 10;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -215,6 +218,7 @@ const uint LEAF_BITS = 4u;
 const uint LEAF_LINK = 0x80000000u;
 const uint END_OF_WALK = 0xffffffffu;
 const uint BVH_DEPTH = 64u;
+const uint ACCUMULATE_GROUP_PIXELS = 256u;  // of a work group of accumulate.comp
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
 const uint LIST_BOX_BITS = 10u;
 const uint LIST_COUNT_BITS = 6u;

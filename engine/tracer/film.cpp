@@ -2,7 +2,6 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/structs.h"
-#include "engine/tracer/tiles.h"
 
 #include <algorithm>
 #include <limits>
@@ -62,18 +61,24 @@ Film::Film(int width, int height)
     : width_(width),
       height_(height),
       samples_("pixel samples",
-               static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample)),
+               static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample),
+               gpu::also_fetched(gpu::Texels::uint4)),
       odd_sums_("pixel sums of odd frames",
-                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum)),
-      even_sums_("pixel sums of even frames", odd_sums_.bytes()),
-      outliers_("pixel outliers", static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                                      sizeof(gpu::PixelOutliers)),
+                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum),
+                gpu::also_fetched(gpu::Texels::uint4)),
+      even_sums_("pixel sums of even frames", odd_sums_.bytes(), gpu::also_fetched(gpu::Texels::uint4)),
+      outliers_(
+          "pixel outliers",
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
+          gpu::also_fetched(gpu::Texels::uint4)),
       statistics_("statistics", sizeof(gpu::Statistics)),
       accumulate_("accumulate.comp", {}) {}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
+  samples_.bind_fetched(gpu::UNIT_SAMPLES);
   outliers_.bind_storage(gpu::BINDING_OUTLIERS);
+  outliers_.bind_fetched(gpu::UNIT_OUTLIERS);
   statistics_.bind_storage(gpu::BINDING_STATISTICS);
 }
 
@@ -83,9 +88,12 @@ void Film::start_frame() {
 }
 
 void Film::accumulate(std::uint32_t frame) {
-  (frame % 2 == 1 ? odd_sums_ : even_sums_).bind_storage(gpu::BINDING_SUMS);
+  const gpu::Buffer& sums = frame % 2 == 1 ? odd_sums_ : even_sums_;
+  sums.bind_storage(gpu::BINDING_SUMS);
+  sums.bind_fetched(gpu::UNIT_SUMS);
   accumulate_.set_frame(frame);
-  accumulate_.dispatch(tiles(width_), tiles(height_));
+  const auto pixels = static_cast<std::uint32_t>(samples_.bytes() / sizeof(gpu::PixelSample));
+  accumulate_.dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
 }
 
 void Film::reset() {
