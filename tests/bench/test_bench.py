@@ -94,6 +94,7 @@ class BenchTest(unittest.TestCase):
 
     def test_what_is_wrong_is_said_before_the_work(self) -> None:
         for arguments, words in {("--scenes", "room:7"): "room: is followed by a number of triangles",
+                                 ("--scenes", "room:500,absent.glb"): "absent.glb': no such file",
                                  ("--variant", ":A=1"): "starts with a name"}.items():
             out = Path(self.temporary.name) / "unused"
             done = subprocess.run([DEV, "bench", *arguments, "--only", "rays", "--out", out], cwd=ROOT,
