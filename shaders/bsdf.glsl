@@ -13,12 +13,12 @@ struct Bsdf {
 
 Bsdf bsdf_of(uint material) {
   Bsdf b;
-  vec4 base = materials[material].base_color;
+  vec4 base = base_color_of(material);
   b.base_color = base.rgb;
 #ifdef HAS_SPECULAR
   b.metallic = base.w;
-  b.dielectric_f0 = materials[material].dielectric_f0;
-  b.alpha = materials[material].roughness.x;
+  b.dielectric_f0 = dielectric_f0_of(material);
+  b.alpha = alpha_of(material);
 #endif
   return b;
 }

@@ -15,7 +15,7 @@ void main() {
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (hit.triangle != NO_TRIANGLE) {
     Surface s = surface_at(hit, direction);
-    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(materials[s.material].base_color.rgb, 1.0),
+    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(base_color_of(s.material).rgb, 1.0),
                      vec4(emitted_radiance(s), 1.0));
   }
   first_hits[pixel.y * parameters.image.x + pixel.x] = first;

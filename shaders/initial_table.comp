@@ -50,15 +50,15 @@ const float GUESSED_ALBEDO = 0.5;
 // light: as the prior of Vevoda, Kondapaneni & Krivanek 2018, from a point for the light. What has no axis shows a
 // quarter of its area to all sides.
 float guess(uint cell, uint light) {
-  vec3 to_light = lights[light].centre.xyz - places[cell].position.xyz;
+  vec3 to_light = light_centre(light).xyz - places[cell].position.xyz;
   float distance2 = max(dot(to_light, to_light), 1e-30);
   vec3 direction = to_light * inversesqrt(distance2);
-  vec3 axis = lights[light].axis.xyz;
-  float area = lights[light].centre.w;
+  vec3 axis = light_axis(light).xyz;
+  float area = light_centre(light).w;
   float shown = max(-dot(axis, direction), LEAST_COSINE * length(axis)) + 0.25 * max(1.0 - length(axis), 0.0);
   float cosine = max(dot(places[cell].normal.xyz, direction), LEAST_COSINE);
   float contribution =
-      GUESSED_ALBEDO / PI * lights[light].axis.w * area * shown * cosine / (distance2 + area);
+      GUESSED_ALBEDO / PI * light_axis(light).w * area * shown * cosine / (distance2 + area);
   return contribution * contribution;
 }
 

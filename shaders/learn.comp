@@ -127,7 +127,7 @@ void prepare_lights(uint first, float total) {
     float fraction = floor_share < 1.0 ? min(sum / total, 1.0) : 0.0;
     column_starts[first + light] = floor_start + uint(rest * fraction);
     sum += sqrt(q_values[first + light]);
-    floor_start += uint(floor_words * lights[light].choice.y) + 1u;
+    floor_start += uint(floor_words * light_choice(light).y) + 1u;
     ++light;
   } while (light < uint(LIGHT_COLUMNS));
   loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);

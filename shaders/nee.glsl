@@ -79,8 +79,9 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
       result = weight * parameters.environment.rgb;
     } else {
       Surface other = surface_at(hit, wi);
-      if (other.light != NO_LIGHT && light_triangles[other.light].link.y == light.light) {
-        float heuristic = power_heuristic(pdf, point_pdf(other.light, hit.t, wi));
+      LightTriangle triangle = light_triangle(other.light == NO_LIGHT ? 0u : other.light);
+      if (other.light != NO_LIGHT && triangle.link.y == light.light) {
+        float heuristic = power_heuristic(pdf, point_pdf(triangle, hit.t, wi));
         result = weight * emitted_radiance(other) * heuristic / light.probability;
       }
     }

@@ -36,6 +36,7 @@ struct TriangleShade {
   vec4 normal2;  // w: bits of the light, NO_LIGHT where it does not emit
 };
 
+// Materials, lights and their triangles are fetched member by member, too (scene.glsl).
 struct Material {      // glTF metallic-roughness
   vec4 base_color;      // rgb, w: metallic
   vec4 emission;        // rgb: radiance, w: 1 where the back face emits too
@@ -47,7 +48,7 @@ struct Material {      // glTF metallic-roughness
 // to its power by Walker's alias method.
 struct LightTriangle {
   vec4 vertex;    // xyz: first vertex
-  vec4 edge1;     // w: length by which shadow rays end off the triangle
+  vec4 edge1;     // w: length by which shadow rays start off the triangle
   vec4 edge2;     // w: probability of choosing it within its light / its area (per area)
   vec4 normal;    // xyz: unit, out of the front face
   vec4 radiance;  // rgb, w: 1 where the back face emits too
@@ -168,8 +169,6 @@ struct Parameters {
 
 const int BINDING_PARAMETERS = 0;
 const int BINDING_NODE_GRID = 1;  // uniform
-const int BINDING_MATERIALS = 3;
-const int BINDING_LIGHT_TRIANGLES = 4;
 const int BINDING_SITES = 5;
 const int BINDING_SITE_RANGES = 6;
 const int BINDING_GRID_ROWS = BINDING_SITES;  // cells are either around sites or of a grid
@@ -182,7 +181,6 @@ const int BINDING_SAMPLES = 12;
 const int BINDING_SUMS = 13;
 const int BINDING_STATISTICS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
-const int BINDING_LIGHTS = 16;
 const int BINDING_TOUCHED_CELLS = 17;
 const int BINDING_CELL_PLACES = 18;
 const int BINDING_OUTLIERS = 19;
@@ -196,6 +194,9 @@ const int BINDING_FETCHED = 24;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;
 const int UNIT_NODES = 2;
+const int UNIT_MATERIALS = 5;
+const int UNIT_LIGHTS = 6;
+const int UNIT_LIGHT_TRIANGLES = 7;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 

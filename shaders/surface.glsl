@@ -57,7 +57,7 @@ vec3 ray_origin(Surface s, vec3 direction) {
 
 // Radiance that the surface emits towards its viewer; from the front face, unless double-sided.
 vec3 emitted_radiance(Surface s) {
-  vec4 emission = materials[s.material].emission;
+  vec4 emission = emission_of(s.material);
   return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;
 }
 

@@ -4,30 +4,27 @@
 
 layout(std140, binding = BINDING_NODE_GRID) uniform NodeGridBlock { NodeGrid node_grid; };
 
-// t where the ray crosses the planes of the grid: plane * slope + start.
+// t where the ray crosses a plane of the grid: plane * slope + start.
 struct GridRay {
   vec3 slope;
   vec3 start;
-  uvec3 near;  // bits by which a word is shifted for the corner that the ray meets first
 };
 
 GridRay grid_ray(vec3 origin, vec3 direction) {
-  GridRay ray;
-  ray.slope = safe_inverse(direction * node_grid.scale.xyz);
-  ray.start = -((origin - node_grid.lo.xyz) * node_grid.scale.xyz) * ray.slope;
-  ray.near = mix(uvec3(0u), uvec3(16u), lessThan(direction, vec3(0.0)));
-  return ray;
+  vec3 slope = safe_inverse(direction * node_grid.scale.xyz);
+  return GridRay(slope, -((origin - node_grid.lo.xyz) * node_grid.scale.xyz) * slope);
 }
 
-// The bits of floats that are not negative are in the order of the floats, and those of negative ones below.
-// Returns the bits of t where the ray enters the box, NO_CHILD where it does not.
+// The bits of t where the ray enters the box, NO_CHILD where it does not. Integers are compared, which is cheaper than
+// floats with their NaN: bits of floats that are not negative are in the order of the floats, and all negative ones,
+// in whatever order, are below.
 const int NO_CHILD = 0x7fffffff;
 
 int enter_box(GridRay ray, uvec3 corners, int t_max) {
-  vec3 near_plane = vec3(ivec3((corners >> ray.near) & 0xffffu));
-  vec3 far_plane = vec3(ivec3((corners >> (16u - ray.near)) & 0xffffu));
-  ivec3 near = floatBitsToInt(fma(near_plane, ray.slope, ray.start));
-  ivec3 far = floatBitsToInt(fma(far_plane, ray.slope, ray.start));
+  ivec3 t0 = floatBitsToInt(fma(vec3(ivec3(corners & 0xffffu)), ray.slope, ray.start));
+  ivec3 t1 = floatBitsToInt(fma(vec3(ivec3(corners >> 16u)), ray.slope, ray.start));
+  ivec3 near = min(t0, t1);
+  ivec3 far = max(t0, t1);
   int enter = max(max(near.x, near.y), max(near.z, 0));
   int leave = min(min(far.x, far.y), min(far.z, t_max));
   return enter <= leave ? enter : NO_CHILD;
@@ -54,9 +51,8 @@ void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
       if (descending) {
         uvec4 a = fetch(nodes, 2u * link);
         uvec4 b = fetch(nodes, 2u * link + 1u);
-        int t_max = floatBitsToInt(hit.t);
-        int first = enter_box(ray, a.xyz, t_max);
-        int second = enter_box(ray, uvec3(a.w, b.xy), t_max);
+        int first = enter_box(ray, a.xyz, floatBitsToInt(hit.t));
+        int second = enter_box(ray, uvec3(a.w, b.xy), floatBitsToInt(hit.t));
         bool swap = second < first;
         uint nearer = swap ? b.w : b.z;
         uint farther = swap ? b.z : b.w;

@@ -108,7 +108,9 @@ void Buffer::bind_uniform(int binding) const {
 void Buffer::bind_fetched(int unit) const {
   const auto slot = static_cast<GLuint>(unit);
   glBindTextureUnit(slot, texture_);
-  glBindImageTexture(slot, texture_, 0, GL_FALSE, 0, GL_READ_ONLY, format_of(texels_).format);
+  // Drivers that have no more units fetch textures (fetch.cpp).
+  if (slot < limit(GL_MAX_IMAGE_UNITS))
+    glBindImageTexture(slot, texture_, 0, GL_FALSE, 0, GL_READ_ONLY, format_of(texels_).format);
   bind_storage(BINDING_FETCHED + unit);
 }
 

@@ -75,9 +75,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
       nodes_(bvh, glm::vec3(scene.camera.world_from_camera[3])),
       shapes_("triangle shapes", pack_shapes(scene, bvh), only_fetched(Texels::float4)),
       shades_("triangle normals", pack_shades(scene, bvh, lights), only_fetched(Texels::float4)),
-      materials_("materials", pack_materials(scene)),
-      light_triangles_("light triangles", lights.triangles),
-      lights_("lights", lights.lights) {
+      materials_("materials", pack_materials(scene), only_fetched(Texels::float4)),
+      light_triangles_("light triangles", lights.triangles, only_fetched(Texels::float4)),
+      lights_("lights", lights.lights, only_fetched(Texels::float4)) {
   for (const qtrace::Material& m : scene.materials) {
     if (!has_specular_lobe(m) || m.roughness >= kMinRoughness) continue;
     warnings_.push_back(fmt::format(
@@ -90,9 +90,9 @@ void SceneBuffers::bind() const {
   nodes_.bind();
   shapes_.bind_fetched(UNIT_SHAPES);
   shades_.bind_fetched(UNIT_SHADES);
-  materials_.bind_storage(BINDING_MATERIALS);
-  light_triangles_.bind_storage(BINDING_LIGHT_TRIANGLES);
-  lights_.bind_storage(BINDING_LIGHTS);
+  materials_.bind_fetched(UNIT_MATERIALS);
+  light_triangles_.bind_fetched(UNIT_LIGHT_TRIANGLES);
+  lights_.bind_fetched(UNIT_LIGHTS);
 }
 
 std::size_t SceneBuffers::bytes() const {

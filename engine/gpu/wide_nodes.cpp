@@ -15,6 +15,8 @@ constexpr double kSteps = 65535;
 // distance.
 constexpr float kFlattest = 1e-5F;
 constexpr float kNearest = 1e-3F;
+// The same where it is flatter than this part of its coordinates: a step is no less than their last digit.
+constexpr float kFinest = 65536.0F / 8388608.0F;
 // What rounding can move a plane by in the shader's test, in steps, for rays that start within the grid: the
 // origin in steps is rounded twice, its product with the slope, the sum, and the slope twice, each by 2^-24
 // of at most 65,535 steps: 0.024. It grows with the distance of the origin.
@@ -24,7 +26,8 @@ constexpr double kRounding = 0.04;
 struct Axis {
   Axis(float scene_lo, float scene_hi, float eye, float largest) {
     const float outside = std::max({scene_lo - eye, eye - scene_hi, 0.0F});
-    const float extent = std::max({scene_hi - scene_lo, kFlattest * largest, kNearest * outside});
+    const float extent = std::max({scene_hi - scene_lo, kFlattest * largest, kNearest * outside,
+                                   kFinest * std::max(std::abs(scene_lo), std::abs(scene_hi))});
     const double away = extent > 0 ? double{outside} / double{extent} : 0;
     margin = kRounding * (1 + away);
     const double used = kSteps - 4 * (margin + 1);
@@ -61,10 +64,8 @@ class Packer {
 
   WideNodes pack() {
     if (bvh_.nodes.size() == 1) {
-      // Its second child is a box that no ray enters.
-      const uvec3 box = corners(bvh_.nodes[0]);
-      const uint nowhere = static_cast<uint>(kSteps);
-      result_.nodes.push_back({uvec4(box, nowhere), uvec4(nowhere, nowhere, link(0), END_OF_WALK)});
+      // The second child is the leaf once more, in a box at the corner of the grid, where there is nothing.
+      result_.nodes.push_back({uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))});
       return std::move(result_);
     }
     for (std::uint32_t i = 0; i < bvh_.nodes.size(); ++i) {

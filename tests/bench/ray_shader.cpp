@@ -7,13 +7,13 @@ namespace qtrace::bench {
 namespace {
 
 constexpr std::size_t kGroup = 64;
-constexpr int kRayUnit = 7;  // beside those of structs.glsl
+constexpr int kRayUnit = 14;  // beside those of structs.glsl
 
 // A negative t stands for a loop that was cut short.
 constexpr std::string_view kShader = R"(#version 450 core
 #include "traverse.glsl"
 layout(local_size_x = 64) in;
-FETCHED_VEC4(rays, 7);
+FETCHED_VEC4(rays, 14);
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer AnswerBuffer { vec2 answers[]; };
 
 void main() {

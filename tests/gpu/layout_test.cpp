@@ -28,6 +28,10 @@ const std::map<std::string, Field> kFields{FIELD(Statistics, cut_pixel),
                                            FIELD(Statistics, counters),
                                            FIELD(Node, lo),
                                            FIELD(Node, hi),
+                                           FIELD(WideNode, a),
+                                           FIELD(WideNode, b),
+                                           FIELD(NodeGrid, lo),
+                                           FIELD(NodeGrid, scale),
                                            FIELD(TriangleShape, vertex0),
                                            FIELD(TriangleShape, vertex1),
                                            FIELD(TriangleShape, vertex2),
@@ -106,15 +110,21 @@ GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
   return value;
 }
 
+// The member of a uniform block that a shader reads, so that the block is active; none for other structs.
+std::string block_member(const std::string& name) {
+  return name == "Parameters" ? ".path.x" : name == "NodeGrid" ? ".lo.x" : "";
+}
+
 // A shader with an array of the struct in a storage buffer, or one of it in a uniform block.
 Program program_with(const std::string& name) {
-  const std::string body =
-      "#version 450 core\n#include \"structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
-      std::string(name == "Parameters" ? "layout(std140, binding = 0) uniform B { Parameters"
-                                       : "layout(std430, binding = 0) buffer B { " + name) +
-      " items" + (name == "Parameters" ? "" : "[]") + "; };\n" +
-      "layout(std430, binding = 1) buffer O { uint o; };\nvoid main() { o = items" +
-      (name == "Parameters" ? ".path.x" : ".length()") + "; }\n";
+  const std::string member = block_member(name);
+  const bool block = !member.empty();
+  const std::string body = "#version 450 core\n#include \"structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
+                           std::string(block ? "layout(std140, binding = 0) uniform B { "
+                                             : "layout(std430, binding = 0) buffer B { ") +
+                           name + " items" + (block ? "" : "[]") + "; };\n" +
+                           "layout(std430, binding = 1) buffer O { uint o; };\nvoid main() { o = uint(items" +
+                           (block ? member : ".length()") + "); }\n";
   return Program(assemble("layout_test", body, {}));
 }
 
@@ -126,7 +136,7 @@ std::string resource_name(GLuint program, GLenum interface, GLuint index) {
 
 std::size_t check_struct(const std::string& name) {
   const Program program = program_with(name);
-  const bool block = name == "Parameters";
+  const bool block = !block_member(name).empty();
   const GLenum interface = block ? GL_UNIFORM : GL_BUFFER_VARIABLE;
   GLint count = 0;
   glGetProgramInterfaceiv(program.id(), interface, GL_ACTIVE_RESOURCES, &count);

@@ -22,13 +22,13 @@ struct RayPair {
   glm::vec4 direction;
 };
 
-// Rays between random points of the scene's box.
-std::vector<RayPair> random_rays(const Bvh& bvh) {
+// Rays between random points of the scene's box, made larger by `more` on every side.
+std::vector<RayPair> random_rays(const Bvh& bvh, float more = 0) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform;
   const auto point = [&] {
     const glm::vec3 u(uniform(random), uniform(random), uniform(random));
-    return bvh.nodes[0].lo + u * (bvh.nodes[0].hi - bvh.nodes[0].lo);
+    return bvh.nodes[0].lo - more + u * (bvh.nodes[0].hi - bvh.nodes[0].lo + 2 * more);
   };
   std::vector<RayPair> rays(kRays);
   for (RayPair& ray : rays) {
@@ -38,12 +38,14 @@ std::vector<RayPair> random_rays(const Bvh& bvh) {
   return rays;
 }
 
-void expect_same_hits(const Scene& scene) {
+gpu::Defines defines_of(const Bvh& bvh) { return {{"BVH", std::to_string(static_cast<int>(bvh.kind))}}; }
+
+void expect_same_hits(const Scene& scene, BvhKind kind, float more = 0) {
   device();
-  const Bvh bvh = build_bvh(scene, BvhKind::sah);
+  const Bvh bvh = build_bvh(scene, kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
-  const std::vector<RayPair> rays = random_rays(bvh);
+  const std::vector<RayPair> rays = random_rays(bvh, more);
   const gpu::Buffer input("rays", std::span<const RayPair>(rays));
   input.bind_storage(gpu::BINDING_SAMPLES);
   const auto hits = probe<glm::uvec4>(
@@ -56,7 +58,7 @@ void expect_same_hits(const Scene& scene) {
       "1.001);\n"
       "result = uvec4(hit.triangle, floatBitsToUint(hit.t), (occluded ? 1u : 0u) | (found ? 2u : 0u), "
       "loop_was_cut ? 1u : 0u);",
-      kRays);
+      kRays, defines_of(bvh));
   int differences = 0;
   for (std::uint32_t i = 0; i < kRays; ++i) {
     const auto truth = closest_hit(scene, bvh, {glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)});
@@ -73,15 +75,31 @@ void expect_same_hits(const Scene& scene) {
   EXPECT_LE(differences, static_cast<int>(kRays / 5000));
 }
 
-TEST(Traversal, AgreesWithTheOracle) {
-  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb"));
-  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb"));
-  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb"));
+class TraversalOf : public testing::TestWithParam<BvhKind> {};
+
+TEST_P(TraversalOf, AgreesWithTheOracle) {
+  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb"), GetParam());
+  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/cornell_box.glb"), GetParam());
+  expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb"), GetParam());
 }
+
+// A box that is flat, and a root that is a leaf.
+TEST_P(TraversalOf, AgreesWithTheOracleOnFewTriangles) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5F))};
+  add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 0);
+  scene.camera = look_at({1, 1, 1}, {0, 0, 0}, 1.0F);
+  expect_same_hits(scene, GetParam(), 1);
+  scene.triangles.resize(1);
+  expect_same_hits(scene, GetParam(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TraversalOf, testing::Values(BvhKind::sah, BvhKind::threaded),
+                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
 
 TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
-  const Bvh bvh = build_bvh(scene, BvhKind::sah);
+  const Bvh bvh = build_bvh(scene, BvhKind::threaded);
   const std::vector<RayPair> rays = random_rays(bvh);
   for (std::size_t i = 0; i < 200; ++i) {
     const Ray ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};
@@ -101,7 +119,7 @@ TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
 // Coincident dark triangles, and behind them in the hierarchy, nearer to the camera, one that emits: a walk
 // that is cut short shows black. Drivers that bound loops must not do that unseen: the image is right, or
 // there is an error.
-TEST(Traversal, LoopBudgetIsNeverExceededInSilence) {
+TEST_P(TraversalOf, LoopBudgetIsNeverExceededInSilence) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.5F)), lambert(glm::vec3(0.5F), glm::vec3(1.0F))};
   constexpr int kLayers = 70000;
@@ -112,6 +130,7 @@ TEST(Traversal, LoopBudgetIsNeverExceededInSilence) {
   settings.width = settings.height = 8;
   settings.max_bounces = 1;
   settings.sampler = Sampler::bsdf;
+  settings.bvh = GetParam();
   try {
     const Rendering r = render(scene, settings, 1);
     for (const glm::dvec3& pixel : r.image.mean) EXPECT_DOUBLE_EQ(pixel.r, 1);

@@ -3,6 +3,7 @@
 #include "engine/gpu/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
+#include "tests/support/bumpy_ball.h"
 #include "tests/support/probe.h"
 
 #include <gtest/gtest.h>
@@ -37,9 +38,9 @@ std::vector<Aim> aims_at_edges(const Scene& scene, glm::vec3 middle) {
 }
 
 // What `body` makes of every aim: the number of results that are not zero.
-std::size_t count_leaks(const Scene& scene, glm::vec3 middle, const std::string& body) {
+std::size_t count_leaks(const Scene& scene, BvhKind kind, glm::vec3 middle, const std::string& body) {
   device();
-  const Bvh bvh = build_bvh(scene, BvhKind::sah);
+  const Bvh bvh = build_bvh(scene, kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<Aim> aims = aims_at_edges(scene, middle);
@@ -53,55 +54,19 @@ std::size_t count_leaks(const Scene& scene, glm::vec3 middle, const std::string&
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"
            "Hit hit = closest_hit(from, direction);\n" +
                body,
-           kRays)) {
+           kRays, {{"BVH", std::to_string(static_cast<int>(kind))}})) {
     leaks += r.x;
   }
   return leaks;
 }
 
-// A closed surface with corners at random distances from its middle, 40 around and 21 from pole to pole.
-Scene bumpy_ball(glm::vec3 middle) {
-  constexpr int kAround = 40;
-  constexpr int kRows = 20;
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> radius(0.7F, 1.0F);
-  std::vector<std::vector<glm::vec3>> rows;
-  for (int row = 0; row <= kRows; ++row) {
-    const float polar = 3.14159265F * static_cast<float>(row) / kRows;
-    std::vector<glm::vec3>& points = rows.emplace_back();
-    for (int i = 0; i < kAround; ++i) {
-      const float azimuth = 2 * 3.14159265F * static_cast<float>(i) / kAround;
-      const glm::vec3 unit(std::sin(polar) * std::cos(azimuth), std::cos(polar),
-                           std::sin(polar) * std::sin(azimuth));
-      const bool is_pole = row == 0 || row == kRows;
-      points.push_back(is_pole && i > 0 ? points[0] : middle + radius(random) * unit);
-    }
-  }
-  Scene scene;
-  scene.materials = {lambert(glm::vec3(0.5F))};
-  const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    if (a == b || b == c || c == a) return;
-    const glm::vec3 n(glm::normalize(area_vector({a, b, c})));
-    scene.triangles.push_back({{a, b, c}, {n, n, n}, {}, 0, 0});
-  };
-  for (int row = 0; row < kRows; ++row) {
-    for (int i = 0; i < kAround; ++i) {
-      const auto r = static_cast<std::size_t>(row);
-      const auto here = static_cast<std::size_t>(i);
-      const auto next = static_cast<std::size_t>((i + 1) % kAround);
-      add(rows[r][here], rows[r][next], rows[r + 1][next]);
-      add(rows[r][here], rows[r + 1][next], rows[r + 1][here]);
-    }
-  }
-  scene.objects = {{"ball", 0, static_cast<std::uint32_t>(scene.triangles.size()), false}};
-  return scene;
-}
+class Watertight : public testing::TestWithParam<BvhKind> {};
 
-TEST(Watertight, NoRayPassesBetweenNeighbours) {
+TEST_P(Watertight, NoRayPassesBetweenNeighbours) {
   for (const glm::vec3 middle : {glm::vec3(0), glm::vec3(3, -7, 20)}) {
-    EXPECT_EQ(
-        count_leaks(bumpy_ball(middle), middle, "result = uvec4(hit.triangle == NO_TRIANGLE ? 1u : 0u);"),
-        0U);
+    EXPECT_EQ(count_leaks(bumpy_ball(middle), GetParam(), middle,
+                          "result = uvec4(hit.triangle == NO_TRIANGLE ? 1u : 0u);"),
+              0U);
   }
 }
 
@@ -117,7 +82,7 @@ Scene turned_box() {
 }
 
 // From points on the edges of a box, a ray anywhere into the hemisphere of the wall that was met.
-TEST(Watertight, NoRayStartsBehindTheNextWall) {
+TEST_P(Watertight, NoRayStartsBehindTheNextWall) {
   const std::string body =
       "if (hit.triangle == NO_TRIANGLE) { results[index] = uvec4(1u); return; }\n"
       "Surface s = surface_at(hit, direction);\n"
@@ -127,9 +92,12 @@ TEST(Watertight, NoRayStartsBehindTheNextWall) {
       "vec3 away = to_world(local, tangent_of(s.geometric_normal), s.geometric_normal);\n"
       "result = uvec4(closest_hit(ray_origin(s, away), away).triangle == NO_TRIANGLE ? 1u : 0u);";
   for (const Scene& scene : {furnace_box(0.5F, 0), turned_box()}) {
-    EXPECT_EQ(count_leaks(scene, glm::vec3(0), body), 0U);
+    EXPECT_EQ(count_leaks(scene, GetParam(), glm::vec3(0), body), 0U);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Watertight, testing::Values(BvhKind::sah, BvhKind::threaded),
+                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
 
 }  // namespace
 }  // namespace qtrace::test

@@ -3,16 +3,12 @@
 #include "engine/scene/gltf.h"
 #include "tests/render/comparison.h"
 
-#include <fmt/format.h>
-#include <boost/math/distributions/normal.hpp>
-
 #include <cmath>
 
 namespace qtrace::independent {
 namespace {
 
 constexpr int kBounces = 5;
-constexpr double kNoNoise = 1e-5;   // standard error, relative
 constexpr double kRounding = 1e-6;  // of an image in single precision, relative
 
 double mean_of(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
@@ -22,18 +18,6 @@ double mean_of(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
 double variance_of(const glm::dvec3& v) {
   const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
   return deviation * deviation;
-}
-
-// Mean over the channels that are not the same whatever the path, where single precision is all that differs;
-// -1 if there is none.
-double channel_chi2(const glm::dvec3& difference, const glm::dvec3& variance, const glm::dvec3& truth) {
-  double sum = 0, channels = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (std::sqrt(variance[k]) < kNoNoise * truth[k] || variance[k] == 0) continue;
-    sum += difference[k] * difference[k] / variance[k];
-    ++channels;
-  }
-  return channels > 0 ? sum / channels : -1;
 }
 
 Scene load(const std::string& name) {
@@ -98,35 +82,26 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
   return result;
 }
 
+// The pixels of a learning sampler share a table, and their estimates are uncorrelated all the same: a frame
+// samples by the table of the frames before, given which its pixels are independent, and unbiased. So
+// variances of pixels add up, those of frames too, and a pixel's own samples tell its variance.
 Agreement Comparison::compare(const RadianceImage& image) const {
   Agreement result;
-  double chi2 = 0, chi4 = 0, a = 0, b = 0, var_a = 0, var_b = 0, counted = 0;
+  Difference difference;
+  difference.scale = truth_.mean;
+  double a = 0, b = 0, var_a = 0, var_b = 0;
   for (std::size_t i = 0; i < truth_.mean.size(); ++i) {
-    const double x = mean_of(image.mean[i]);
-    const double y = mean_of(truth_.mean[i]);
-    const double var_x = variance_of(image.variance[i]);
-    const double var_y = variance_of(truth_.variance[i]);
-    if (edges_[i] == 0) a += x, b += y, var_a += var_x, var_b += var_y;
-    const double c =
-        channel_chi2(image.mean[i] - truth_.mean[i], image.variance[i] + truth_.variance[i], truth_.mean[i]);
-    if (c < 0) continue;
-    chi2 += c, chi4 += c * c, ++counted;
+    difference.mean.push_back(image.mean[i] - truth_.mean[i]);
+    difference.variance.push_back(image.variance[i] + truth_.variance[i]);
+    if (edges_[i] != 0) continue;
+    a += mean_of(image.mean[i]), b += mean_of(truth_.mean[i]);
+    var_a += variance_of(image.variance[i]), var_b += variance_of(truth_.variance[i]);
   }
+  result.pixels = pooled_chi2(difference, 1, kBlock);
+  result.blocks = pooled_chi2(difference, kBlock, kBlocksInPool);
   result.mean_ratio = a / b;
   result.mean_ratio_error = result.mean_ratio * std::sqrt(var_a / (a * a) + var_b / (b * b)) + kRounding;
-  result.chi2_per_pixel = counted == 0 ? 1 : chi2 / counted;
-  result.chi2_error = counted == 0 ? 0 : std::sqrt((chi4 / counted - std::pow(chi2 / counted, 2)) / counted);
   return result;
-}
-
-bool Agreement::agrees(double chance) const {
-  const double z = boost::math::quantile(boost::math::complement(boost::math::normal(), chance / 4));
-  return std::abs(chi2_per_pixel - 1) <= z * chi2_error && std::abs(mean_ratio - 1) <= z * mean_ratio_error;
-}
-
-std::string Agreement::text() const {
-  return fmt::format("chi2 per pixel {:.3f} +- {:.3f}, mean ratio {:.5f} +- {:.5f} after {} frames",
-                     chi2_per_pixel, chi2_error, mean_ratio, mean_ratio_error, frames);
 }
 
 }  // namespace qtrace::independent

@@ -3,10 +3,10 @@
 
 #include "engine/core/image.h"
 #include "engine/core/settings.h"
+#include "tests/independent/agreement.h"
 #include "tests/independent/path_tracer.h"
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,27 +19,10 @@ inline constexpr std::array kScenes{"simple.glb",      "occluded.glb", "cornell_
 // Chance that a true renderer fails one comparison.
 inline constexpr double kQuickChance = 1e-4;
 
-struct Agreement {
-  // Mean over pixels and channels of (a - b)^2 / (var a + var b): 1 but for chance, if the images are the
-  // same.
-  double chi2_per_pixel = 0;
-  double chi2_error = 0;  // its standard error
-  // Of the images' means, the renderer's over the tracer's. Pixels in which a light's edge is seen are left
-  // out: nearly all of their noise, and up to nine tenths of that of the whole, is where in the pixel samples
-  // fall.
-  double mean_ratio = 0;
-  double mean_ratio_error = 0;
-  int frames = 0;  // of the renderer
-  std::uint64_t non_finite = 0;
-
-  bool agrees(double chance) const;  // both figures are 1, up to their errors
-  std::string text() const;
-};
-
 class Comparison {
  public:
   struct Size {
-    int size;     // pixels each way
+    int size;     // pixels each way: whole pools of blocks (agreement.h)
     int samples;  // of the independent tracer, at least
     // Doubled up to this many until the mean is known to half the variance that `precision` allows.
     int most_samples = 0;

@@ -15,7 +15,7 @@ class Protection:
     is_test: bool = False
 
 
-SURFACE, TRAVERSE, NEE = "shaders/surface.glsl", "shaders/traverse.glsl", "shaders/nee.glsl"
+SURFACE, INTERSECT, NEE = "shaders/surface.glsl", "shaders/intersect.glsl", "shaders/nee.glsl"
 ORIGIN = "return s.position + s.offset * (side * s.geometric_normal + s.inwards);"
 OFFSET = "s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));"
 INSIDE = "bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessThanEqual(weights, vec3(0.0)));"
@@ -27,7 +27,7 @@ HAS_AREA = ("return twice_area > kMinRelativeHeight * longest && "
 # alone, one triangle, roughness 0.05, five million triangles.
 PROTECTIONS = [
     Protection("edges belong to their triangles", ("white furnace", "camera in geometry"), (Edit(
-        TRAVERSE, INSIDE,
+        INTERSECT, INSIDE,
         "float margin = 1e-4 * abs(weights.x + weights.y + weights.z);\n"
         "  bool inside = all(greaterThanEqual(weights, vec3(margin))) || all(lessThanEqual(weights, vec3(-margin)));"),)),
     Protection("rays leave surfaces off them and off their edges", ("white furnace", "camera in geometry", "room"),
