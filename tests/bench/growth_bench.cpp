@@ -154,7 +154,7 @@ class GrowthBench {
   std::vector<Point> points_of(const Axis& axis) {
     std::vector<Point> points;
     const auto count =
-        static_cast<std::size_t>(std::ceil(options_.largest * static_cast<double>(axis.values.size())));
+        static_cast<std::size_t>(std::ceil(options_.share * static_cast<double>(axis.values.size())));
     for (std::size_t i = 0; i < std::min(count, axis.values.size()); ++i) {
       const int value = axis.values[i];
       const bool of_triangles = axis.name == "triangles";
@@ -165,10 +165,21 @@ class GrowthBench {
       for (Method method : methods(experiment_)) {
         if (axis.table_only && !has_table(method.settings)) continue;
         axis.apply(method.settings, value);
-        points.push_back({shown, method.name, std::make_unique<Tracer>(context_, scene, method.settings)});
+        add_point(points, {shown, method.name, nullptr}, scene, method.settings);
       }
     }
     return points;
+  }
+
+  // Leaves out what the device cannot hold, and says so.
+  void add_point(std::vector<Point>& points, Point point, const Scene& scene,
+                 const RenderSettings& settings) {
+    try {
+      point.tracer = std::make_unique<Tracer>(context_, scene, settings);
+      points.push_back(std::move(point));
+    } catch (const Error& error) {
+      fmt::print("{} at {} is left out: {}\n", point.method, point.value, error.what());
+    }
   }
 
   const gpu::Context& context_;

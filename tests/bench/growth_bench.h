@@ -9,8 +9,8 @@ namespace qtrace::bench {
 
 struct GrowthBenchOptions {
   int rounds = 0;
-  int size = 0;        // pixels along a side of the image, where that is not what grows
-  double largest = 1;  // share of each axis that is measured, by its logarithm
+  int size = 0;      // pixels along a side of the image, where that is not what grows
+  double share = 1;  // of the values of each axis, from the smallest
   std::filesystem::path out;
 };
 

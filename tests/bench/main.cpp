@@ -5,6 +5,7 @@
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
+#include "tests/bench/scenes.h"
 #include "tests/bench/step_bench.h"
 
 #include <embree3/rtcore.h>
@@ -46,13 +47,14 @@ struct Effort {
   int ray_rounds, ray_size;
   int frame_rounds, frame_size;
   int growth_rounds, growth_size;
-  double growth_largest;  // share of each axis
+  double growth_share;  // of the values of each axis, from the smallest
 };
-constexpr Effort kFull{15, 512, 9, 512, 7, 256, 1};
+constexpr Effort kFull{11, 512, 7, 512, 7, 256, 1};
 constexpr Effort kQuick{5, 256, 7, 128, 5, 96, 0.6};
 
 void add_options(CLI::App& app, Options& options) {
   constexpr int kMost = 1024;
+  constexpr int kTile = 8;
   app.add_flag("--quick", options.quick, "a minute instead of a quarter of an hour, with wider spreads");
   app.add_option("--only", options.only, "one part of it")
       ->check(CLI::IsMember({"rays", "frames", "steps", "growth"}));
@@ -64,7 +66,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--rounds", options.rays.rounds, "interleaved rounds; figures are their medians")
       ->check(CLI::Range(1, kMost));
   app.add_option("--size", options.rays.size, "pixels along a side of all images")
-      ->check(CLI::Range(1, kMost));
+      ->check(CLI::Range(kTile, kMost));
   app.add_option("--threads", options.rays.threads, "of Embree; llvmpipe uses one per core")
       ->check(CLI::Range(1, kMost))
       ->default_val(std::max(1U, std::thread::hardware_concurrency()));
@@ -93,6 +95,7 @@ int run(int argc, char** argv) {
   const int size = options.rays.size;
   options.rays.variants = {{"qtrace", {}}, {"threaded", {{"BVH", "1"}}}};
   for (const std::string& text : options.variants) options.rays.variants.push_back(read_variant(text));
+  for (const std::string& scene : options.rays.scenes) check_scene(scene);
   options.rays.rounds = chosen(rounds, effort.ray_rounds);
   options.rays.size = chosen(size, effort.ray_size);
   const std::filesystem::path& out = options.rays.out;
@@ -110,7 +113,7 @@ int run(int argc, char** argv) {
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),
-                           effort.growth_largest, out});
+                           effort.growth_share, out});
   }
   return 0;
 }

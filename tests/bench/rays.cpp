@@ -3,12 +3,14 @@
 #include "engine/gpu/structs.h"
 #include "tests/bench/embree.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 
 namespace qtrace::bench {
@@ -24,6 +26,11 @@ class Units {
 
  private:
   std::mt19937 bits_{kSeed};
+};
+
+struct SurfacePoint {
+  glm::vec3 position;
+  glm::vec3 normal;
 };
 
 // Points by area on some of a scene's triangles.
@@ -42,13 +49,14 @@ class SurfacePoints {
     }
   }
 
-  glm::vec3 next(Units& units) const {
+  SurfacePoint next(Units& units) const {
     const auto place = std::ranges::upper_bound(areas_, area_ * static_cast<double>(units.next()));
     const auto index = std::min<std::ptrdiff_t>(place - areas_.begin(), std::ssize(areas_) - 1);
     const auto& p = scene_.triangles[triangles_[static_cast<std::size_t>(index)]].position;
     const float root = std::sqrt(units.next());
     const float along = units.next();
-    return p[0] + root * (1 - along) * (p[1] - p[0]) + root * along * (p[2] - p[0]);
+    return {p[0] + root * (1 - along) * (p[1] - p[0]) + root * along * (p[2] - p[0]),
+            glm::vec3(glm::normalize(area_vector(p)))};
   }
 
  private:
@@ -95,6 +103,19 @@ glm::vec3 off_surface(glm::vec3 point, glm::vec3 normal) {
   return point + 4 * gpu::OFFSET_FRACTION * size * normal;
 }
 
+// From the light, as the tracer's, whose neighbours share more of their way so; none where the surface does
+// not face the light, or where the light is seen edge on.
+std::optional<BenchRay> shadow_ray(const SurfacePoint& light, glm::vec3 surface, glm::vec3 normal) {
+  constexpr float kEdgeOn = 1e-3F;  // cosine
+  const glm::vec3 way = surface - light.position;
+  if (glm::dot(normal, way) >= 0 || std::abs(glm::dot(light.normal, way)) < kEdgeOn * glm::length(way))
+    return {};
+  // A thousandth of the way off, where the light must not hide itself.
+  constexpr float kStart = 0.001F;
+  const glm::vec3 start = glm::mix(light.position, surface, kStart);
+  return BenchRay{glm::vec4(start, 0), glm::vec4(surface - start, 0)};
+}
+
 }  // namespace
 
 RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size) {
@@ -112,9 +133,7 @@ RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size) {
     const glm::vec3 hit = glm::vec3(rays.primary[i].origin) + hits[i].t * direction;
     const glm::vec3 origin = off_surface(hit, normal);
     rays.bounce.push_back({glm::vec4(origin, 0), glm::vec4(cosine_direction(normal, units), 0)});
-    // A thousandth of its way before the light, which must not hide itself.
-    constexpr float kEnd = 0.999F;
-    rays.shadow.push_back({glm::vec4(origin, 0), glm::vec4(kEnd * (points.next(units) - origin), 0)});
+    if (const auto ray = shadow_ray(points.next(units), origin, normal)) rays.shadow.push_back(*ray);
   }
   return rays;
 }

@@ -15,7 +15,7 @@ namespace qtrace::bench {
 // As the shader fetches it.
 struct BenchRay {
   glm::vec4 origin;     // xyz
-  glm::vec4 direction;  // xyz; to the end of the segment for shadow rays
+  glm::vec4 direction;  // xyz; of shadow rays to the end of the segment
 };
 
 // As the shader writes it.

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string_view>
 
 namespace qtrace::bench {
 namespace {
@@ -119,6 +121,20 @@ void add_balls(Scene& scene, std::uint32_t triangles) {
   }
 }
 
+constexpr std::string_view kRoom = "room:";
+
+std::uint32_t room_triangles(const std::string& name) {
+  const std::string_view number = std::string_view(name).substr(kRoom.size());
+  std::uint32_t triangles = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), triangles);
+  constexpr std::uint32_t kLeast = 100;
+  constexpr std::uint32_t kMost = 20'000'000;
+  check(error == std::errc() && end == number.data() + number.size() && triangles >= kLeast &&
+            triangles <= kMost,
+        "scene '{}': room: is followed by a number of triangles from {} to {}", name, kLeast, kMost);
+  return triangles;
+}
+
 }  // namespace
 
 Scene room(std::uint32_t triangles) {
@@ -134,18 +150,15 @@ Scene room(std::uint32_t triangles) {
   return scene;
 }
 
+void check_scene(const std::string& name) {
+  if (name.starts_with(kRoom))
+    room_triangles(name);
+  else
+    check(std::filesystem::is_regular_file(name), "scene '{}': no such file, and not room:TRIANGLES", name);
+}
+
 Scene bench_scene(const std::string& name) {
-  constexpr std::string_view kRoom = "room:";
-  if (!name.starts_with(kRoom)) return load_gltf(name);
-  const std::string_view number = std::string_view(name).substr(kRoom.size());
-  std::uint32_t triangles = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), triangles);
-  constexpr std::uint32_t kLeast = 100;
-  constexpr std::uint32_t kMost = 20'000'000;
-  check(error == std::errc() && end == number.data() + number.size() && triangles >= kLeast &&
-            triangles <= kMost,
-        "scene '{}': room: is followed by a number of triangles from {} to {}", name, kLeast, kMost);
-  return room(triangles);
+  return name.starts_with(kRoom) ? room(room_triangles(name)) : load_gltf(name);
 }
 
 }  // namespace qtrace::bench

@@ -12,7 +12,9 @@ namespace qtrace::bench {
 // triangles; the same ones at every call.
 Scene room(std::uint32_t triangles);
 
-// room:TRIANGLES, else a glTF file. Throws Error that says what is wrong with it.
+// room:TRIANGLES, else a glTF file. Throw Error that says what is wrong with it, the first without loading
+// it.
+void check_scene(const std::string& name);
 Scene bench_scene(const std::string& name);
 
 }  // namespace qtrace::bench

@@ -43,7 +43,9 @@ class BenchTest(unittest.TestCase):
         self.assertEqual([(row["scene"], row["kind"], row["tracer"]) for row in rows],
                          [(scene, kind, tracer) for scene in ("room:2000", "simple") for kind in kinds for tracer in tracers])
         for row in rows:
-            self.assertEqual((row["rays"], row["rounds"]), ("1024", "3"))
+            self.assertEqual(row["rounds"], "3")
+            # In closed rooms every ray of the camera meets something; not everything faces the light.
+            (self.assertEqual if row["kind"] != "shadow" else self.assertGreater)(1024, int(row["rays"]))
             self.assertGreater(float(row["mrays_per_s"]), 0)
             self.assertLessEqual(float(row["speed_over_embree_low"]), float(row["speed_over_embree_high"]))
             if row["tracer"] == "Embree":
@@ -94,6 +96,7 @@ class BenchTest(unittest.TestCase):
 
     def test_what_is_wrong_is_said_before_the_work(self) -> None:
         for arguments, words in {("--scenes", "room:7"): "room: is followed by a number of triangles",
+                                 ("--scenes", "room:500,absent.glb"): "absent.glb': no such file",
                                  ("--variant", ":A=1"): "starts with a name"}.items():
             out = Path(self.temporary.name) / "unused"
             done = subprocess.run([DEV, "bench", *arguments, "--only", "rays", "--out", out], cwd=ROOT,
