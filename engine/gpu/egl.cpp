@@ -1,5 +1,7 @@
 #include "engine/gpu/egl.h"
 
+#include "engine/core/check.h"
+#include "engine/gpu/fetch.h"
 
 #include <epoxy/gl.h>
 
