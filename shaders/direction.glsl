@@ -32,16 +32,16 @@ struct DirectionSample {
 #if SAMPLER == SAMPLER_RL
 
 // One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where the hit has no cell.
-float mixture_pdf(Event e, vec3 wi, uint bin) {
-  float bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
-  if (e.cell.index == NO_CELL) return bsdf;
-  return mix(table_pdf(uint(e.cell.index), bin), bsdf, parameters.rl.x);
+float mixture_pdf(Event e, float bsdf, float table) {
+  return e.cell.index == NO_CELL ? bsdf : mix(table, bsdf, parameters.rl.x);
 }
 
 float direction_pdf(Event e, vec3 wi) {
+  float bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
   vec3 local = to_cell(e.cell, e.surface.normal, wi);
   // Below the surface the table has no bins.
-  return local.z > 0.0 ? mixture_pdf(e, wi, bin_of(local)) : bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+  if (e.cell.index == NO_CELL || local.z <= 0.0) return bsdf;
+  return mixture_pdf(e, bsdf, table_pdf(uint(e.cell.index), bin_of(local)));
 }
 
 DirectionSample sample_direction(Event e, uvec4 bits) {
@@ -49,15 +49,19 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   bool has_cell = e.cell.index != NO_CELL;
   uint cell = has_cell ? uint(e.cell.index) : 0u;
   DirectionSample result;
-  uint bin;
+  Choice choice = choose_bin(cell, bits.w);
+  uint bin = choice.column;
+  float table = bin_pdf(choice.probability);
   if (has_cell && to_unit(bits.x) >= parameters.rl.x) {
-    bin = choose_bin(cell, bits.w);
     result.direction = to_world(direction_in_bin(bin, u), e.cell.tangent, e.surface.normal);
   } else {
     result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
+#ifdef MIXES_BSDF
     bin = bin_of(to_cell(e.cell, e.surface.normal, result.direction));
+    table = table_pdf(cell, bin);
+#endif
   }
-  result.pdf = mixture_pdf(e, result.direction, bin);
+  result.pdf = mixture_pdf(e, bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction), table);
   result.entry = has_cell ? first_bin(cell) + bin : NO_ENTRY;
   return result;
 }

@@ -1,13 +1,13 @@
 // Cells of a regular grid of boxes, six in each: for the axes that the normal towards the viewer can be nearest
 // to (engine/cells/grid.h). Not every box has them; a hit without a cell is counted as one.
-layout(std430, binding = BINDING_GRID_ROWS) restrict readonly buffer GridBuffer { uint grid_rows[]; };
+FETCHED_UINT(grid_rows, UNIT_GRID_ROWS);
 
 Cell find_cell(Surface s) {
   uvec3 boxes = parameters.grid_boxes.xyz;
   vec3 place = max((s.position - parameters.grid.xyz) * parameters.grid.w, vec3(0.0));
   uvec3 box = min(uvec3(place), boxes - 1u);
   uint axis = nearest_axis(s.normal);
-  uint row = grid_rows[((box.z * boxes.y + box.y) * boxes.x + box.x) * 6u + axis];
+  uint row = fetch_one(grid_rows, ((box.z * boxes.y + box.y) * boxes.x + box.x) * 6u + axis);
   if (row == NO_ENTRY) return no_cell(s);
   vec3 normal = vec3(equal(uvec3(axis >> 1), uvec3(0u, 1u, 2u))) * ((axis & 1u) == 0u ? 1.0 : -1.0);
   return cell_at(s, row, normal);

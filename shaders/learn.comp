@@ -15,6 +15,38 @@ layout(std430, binding = BINDING_TARGET_SUMS) restrict buffer TargetSumBuffer { 
 layout(std430, binding = BINDING_COLUMN_STARTS) restrict writeonly buffer ColumnStartBuffer { uint column_starts[]; };
 layout(std430, binding = BINDING_NEXT_VALUES) restrict writeonly buffer NextValueBuffer { float next_values[]; };
 
+// Targets that ran over in the counts of the low word, and of the middle one.
+uint beyond_low(TargetSum sum) {
+  return (sum.middle & SUM_MIDDLE_COUNT) + ((sum.high & SUM_HIGH_COUNT) << SUM_MIDDLE_COUNT_BITS);
+}
+
+uint beyond_middle(TargetSum sum) {
+  return sum.high & SUM_HIGH_COUNT;
+}
+
+uint targets_of(TargetSum sum) {
+  return (sum.low & SUM_LOW_COUNT) + (beyond_low(sum) << SUM_LOW_COUNT_BITS);
+}
+
+bool is_full(TargetSum sum) {
+  return sum.high >> SUM_HIGH_COUNT_BITS >= SUM_HIGH_FULL;
+}
+
+// What a full sum holds beyond the limit depends on the order of threads; the limit does not.
+float units_of(TargetSum sum) {
+  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;
+  // As one integer of 64 bits, which is rounded once for each half.
+  const uint middle_shift = 32u - SUM_LOW_COUNT_BITS;
+  const uint high_shift = middle_shift + 32u - SUM_MIDDLE_COUNT_BITS;
+  uint low = sum.low >> SUM_LOW_COUNT_BITS;
+  uint middle = (sum.middle >> SUM_MIDDLE_COUNT_BITS) - beyond_middle(sum);
+  uint high = sum.high >> SUM_HIGH_COUNT_BITS;
+  uint carry, borrow;
+  uint low_half = usubBorrow(uaddCarry(middle << middle_shift, low, carry), beyond_low(sum), borrow);
+  uint high_half = (high << (high_shift - 32u)) + uint(int(middle) >> (32u - middle_shift)) + carry - borrow;
+  return float(high_half) * 4294967296.0 + float(low_half);
+}
+
 // The columns of one kind in one row, and what happened to all of them.
 struct Columns {
   uint first;
@@ -23,15 +55,13 @@ struct Columns {
   float targets;  // of this frame
 };
 
-Columns columns_at(uint first, uint count, uint marks) {
+Columns columns_at(uint first, uint count) {
   Columns columns = Columns(first, count, 0.0, 0.0);
 #if LEARNING_RATE == RATE_VISITS_PER_CELL
   uint i = 0u;
   do {
     columns.visits += float(q_visits[first + i]);
-    if (is_marked(marks, (first + i) % TABLE_COLUMNS)) {
-      columns.targets += float(target_sums[first + i].count & ~TARGET_SATURATED);
-    }
+    columns.targets += float(targets_of(target_sums[first + i]));
     ++i;
   } while (i < count);
   loop_was_cut = loop_was_cut || i < count;
@@ -39,27 +69,17 @@ Columns columns_at(uint first, uint count, uint marks) {
   return columns;
 }
 
-// Sums are read only where the marks allow for targets: reading them all costs more than the rest.
-void apply_targets(uint entry, Columns columns, uint marks, float unit) {
-  if (!is_marked(marks, entry % TABLE_COLUMNS)) return;
-  uint targets = target_sums[entry].count & ~TARGET_SATURATED;
+void apply_targets(uint entry, Columns columns, float unit) {
+  TargetSum sum = target_sums[entry];
+  uint targets = targets_of(sum);
   if (targets == 0u) return;
-  uint high = target_sums[entry].high;
-  float low = float(target_sums[entry].low);
-  // What a full sum holds beyond the limit depends on the order of threads; the limit does not.
-  if ((target_sums[entry].count & TARGET_SATURATED) != 0u) {
-    count(STATISTIC_SATURATED, targets);
-    high = TARGET_SATURATED;
-    low = 0.0;
-  }
-  float mean = (float(high) * 4294967296.0 + low) * unit / float(targets);
+  if (is_full(sum)) count(STATISTIC_SATURATED, targets);
+  float mean = units_of(sum) * unit / float(targets);
   Step step = learning_step(float(q_visits[entry]), float(targets), columns.visits, columns.targets);
   q_values[entry] = q_values[entry] * step.keep + mean * step.gain;
   // Above 2^24 visits alpha no longer changes in a float; the counter must not wrap.
   q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);
-  target_sums[entry].low = 0u;
-  target_sums[entry].high = 0u;
-  target_sums[entry].count = 0u;
+  target_sums[entry] = TargetSum(0u, 0u, 0u);
 }
 
 // Column starts, as words of 32 bits (see column_probability in columns.glsl). Every column gets its part of the
@@ -83,15 +103,15 @@ void prepare_bins(uint first, float total) {
   loop_was_cut = loop_was_cut || bin < uint(BINS);
 }
 
-void learn_bins(uint cell, uint marks) {
+void learn_bins(uint cell) {
   uint first = first_bin(cell);
-  Columns columns = columns_at(first, uint(BINS), marks);
+  Columns columns = columns_at(first, uint(BINS));
   float total = 0.0;
   float irradiance = 0.0;
   float best = 0.0;
   uint bin = 0u;
   do {
-    apply_targets(first + bin, columns, marks, TARGET_UNIT);
+    apply_targets(first + bin, columns, TARGET_UNIT);
     float value = q_values[first + bin];
     total += value;
     irradiance += value * bin_cosine(bin) * BIN_SOLID_ANGLE;
@@ -133,13 +153,13 @@ void prepare_lights(uint first, float total) {
   loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
 }
 
-void learn_lights(uint cell, uint marks) {
+void learn_lights(uint cell) {
   uint first = first_light(cell);
-  Columns columns = columns_at(first, uint(LIGHT_COLUMNS), marks);
+  Columns columns = columns_at(first, uint(LIGHT_COLUMNS));
   float total = 0.0;
   uint light = 0u;
   do {
-    apply_targets(first + light, columns, marks, LIGHT_TARGET_UNIT);
+    apply_targets(first + light, columns, LIGHT_TARGET_UNIT);
     total += sqrt(q_values[first + light]);
     ++light;
   } while (light < uint(LIGHT_COLUMNS));
@@ -153,13 +173,11 @@ void main() {
   uint place = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
   if (place >= touched_head.count) return;
   uint cell = touched[place];
-  uint marks = touched[mark_of(cell)];
-  touched[mark_of(cell)] = 0u;
 #if SAMPLER == SAMPLER_RL
-  learn_bins(cell, marks);
+  learn_bins(cell);
 #endif
 #if LIGHT_COLUMNS > 0
-  learn_lights(cell, marks);
+  learn_lights(cell);
 #endif
   if (loop_was_cut) report_cut(uvec2(cell, 0u));
 }

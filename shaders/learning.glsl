@@ -58,7 +58,7 @@ void learn_leaving(inout Path path, uint bounce, vec3 radiance, float weight) {
 float promise(Path path, Event e, Departure next, uint bounce, RandomKey key) {
   if (e.cell.index == NO_CELL) return 0.0;
 #if UPDATE_RULE == UPDATE_SARSA
-  return average(next.weight) * q_values[next.direction.entry];
+  return average(next.weight) * fetch_one(q_values, next.direction.entry);
 #else
   vec3 rotation = random_units(key, bounce * BLOCKS_PER_EVENT + BLOCK_MORE).yzw;
   return next_value(e.surface, e.bsdf, e.wo, e.cell, path.throughput, rotation);

@@ -28,7 +28,7 @@ uint alias_slot(uint word, uint count, out uint fraction) {
 // `cell`: that of the surface, NO_CELL where it has none.
 uint choose_light(int cell, uint word) {
 #if LIGHT_COLUMNS > 0
-  if (cell != NO_CELL) return choose_column(first_light(uint(cell)), uint(LIGHT_COLUMNS), word);
+  if (cell != NO_CELL) return choose_column(first_light(uint(cell)), uint(LIGHT_COLUMNS), word).column;
 #endif
   uint fraction;
   uint slot = alias_slot(word, parameters.path.z, fraction);

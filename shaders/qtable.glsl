@@ -3,16 +3,20 @@
 #include "cells.glsl"
 #include "columns.glsl"
 
-layout(std430, binding = BINDING_Q_VALUES) restrict readonly buffer QValueBuffer { float q_values[]; };
-layout(std430, binding = BINDING_NEXT_VALUES) restrict readonly buffer NextValueBuffer { float next_values[]; };
+FETCHED_FLOAT(q_values, UNIT_Q_VALUES);
+FETCHED_FLOAT(next_values, UNIT_NEXT_VALUES);
 
-uint choose_bin(uint cell, uint word) {
+Choice choose_bin(uint cell, uint word) {
   return choose_column(first_bin(cell), uint(BINS), word);
 }
 
 // Density per solid angle of drawing a bin by its value, then a direction uniformly in it.
+float bin_pdf(float probability) {
+  return probability / BIN_SOLID_ANGLE;
+}
+
 float table_pdf(uint cell, uint bin) {
-  return column_probability(first_bin(cell), uint(BINS), bin) / BIN_SOLID_ANGLE;
+  return bin_pdf(column_probability(first_bin(cell), uint(BINS), bin));
 }
 
 #ifdef HAS_SPECULAR
@@ -33,7 +37,7 @@ float expected_reflection(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 rotation) 
     vec3 reflected = bsdf_cosine(s, b, wo, wi);
     if (reflected != vec3(0.0)) {
       uint bin = bin_of(to_cell(cell, s.normal, wi));
-      sum += q_values[first_bin(uint(cell.index)) + bin] * average(reflected) / bsdf_pdf(s, b, wo, wi);
+      sum += fetch_one(q_values, first_bin(uint(cell.index)) + bin) * average(reflected) / bsdf_pdf(s, b, wo, wi);
     }
     ++i;
   } while (i < EXPECTATION_SAMPLES);
@@ -50,11 +54,11 @@ float expected_reflection(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 rotation) 
 //   paper_listing: the best bin's value, discounted by the whole path's throughput (the report's listing)
 float next_value(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 throughput, vec3 rotation) {
 #if UPDATE_RULE == UPDATE_PAPER_LISTING
-  return average(throughput) * next_values[cell.index];
+  return average(throughput) * fetch_one(next_values, cell.index);
 #elif defined(HAS_SPECULAR) && UPDATE_RULE == UPDATE_EXPECTED_SARSA
-  return is_lambert(b) ? reflectance(s, b, wo) * next_values[cell.index]
+  return is_lambert(b) ? reflectance(s, b, wo) * fetch_one(next_values, cell.index)
                        : expected_reflection(s, b, wo, cell, rotation);
 #else
-  return reflectance(s, b, wo) * next_values[cell.index];
+  return reflectance(s, b, wo) * fetch_one(next_values, cell.index);
 #endif
 }

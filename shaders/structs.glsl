@@ -70,14 +70,14 @@ struct CellPlace {
   vec4 normal;  // unit, on the side that the cell is on
 };
 
-// Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h).
+// Centre of a Voronoi cell, and a node of its object's tree (engine/cells/site_tree.h). Fetched as texels.
 struct Site {
   vec4 position;  // w: bits of the axis by which the node is split
   vec4 normal;    // xyz: unit, w: bits of its subtree's bounds of normals: lower x, y, z, upper x, y, z
 };
 
 // The sites of an object: a range of the site buffer, in the order of the tree; and a grid of boxes over it, for each
-// of which the sites are listed that can be nearest there (engine/cells/site_lists.h).
+// of which the sites are listed that can be nearest there (engine/cells/site_lists.h). Fetched as texels.
 struct SiteRange {
   uvec4 range;  // x: first, y: count, z: first entry of the lists,
                 // w: boxes along x, y, z, in LIST_BOX_BITS bits each; 0 where there is none
@@ -92,12 +92,33 @@ struct TouchedHead {
   uint count;
 };
 
-// Sum of one frame's targets of a table entry: fixed point, high * 2^32 + low in units of TARGET_UNIT.
+// Sum of one frame's targets of a table entry, and their number: two integers in fixed point, of which every word has
+// a part. The low bits of a word count, the others sum: in units of 1 or of SUM_..._UNIT. What runs over in the count
+// of a word adds 1 to its sum and is counted in the next word; what runs over in its sum is added to that of the next.
+//   number = number in low + 2^7 * (in middle + 2^12 * in high)
+// Most targets need an addition to the low word alone.
 struct TargetSum {
   uint low;
+  uint middle;
   uint high;
-  uint count;
 };
+const uint SUM_WORDS = 3u;
+const uint SUM_LOW_COUNT_BITS = 7u;
+const uint SUM_MIDDLE_COUNT_BITS = 12u;
+const uint SUM_HIGH_COUNT_BITS = 10u;
+const uint SUM_LOW_COUNT = (1u << SUM_LOW_COUNT_BITS) - 1u;
+const uint SUM_MIDDLE_COUNT = (1u << SUM_MIDDLE_COUNT_BITS) - 1u;
+const uint SUM_HIGH_COUNT = (1u << SUM_HIGH_COUNT_BITS) - 1u;
+const float SUM_MIDDLE_UNIT = 33554432.0f;       // 2^(32 - 7)
+const float SUM_HIGH_UNIT = 35184372088832.0f;   // 2^(32 - 7 + 32 - 12)
+// A sum of so many SUM_HIGH_UNIT (2^63) counts as this.
+const uint SUM_HIGH_FULL = 262144u;
+// Steps of an addition: the words by their place, taking back what was added to a full sum, marking the cell.
+const uint SUM_LOW = 0u;
+const uint SUM_MIDDLE = 1u;
+const uint SUM_HIGH = 2u;
+const uint SUM_RETURN = 3u;
+const uint SUM_MARK = 4u;
 
 // What trace.comp leaves for accumulate.comp.
 struct PixelSample {
@@ -169,9 +190,6 @@ struct Parameters {
 
 const int BINDING_PARAMETERS = 0;
 const int BINDING_NODE_GRID = 1;  // uniform
-const int BINDING_SITES = 5;
-const int BINDING_SITE_RANGES = 6;
-const int BINDING_GRID_ROWS = BINDING_SITES;  // cells are either around sites or of a grid
 const int BINDING_Q_VALUES = 7;
 const int BINDING_Q_VISITS = 8;
 const int BINDING_TARGET_SUMS = 9;
@@ -187,19 +205,24 @@ const int BINDING_OUTLIERS = 19;
 const int BINDING_FILTER_GUIDES = 20;
 const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
-const int BINDING_SITE_LISTS = 23;
 
 // Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit.
 const int BINDING_FETCHED = 24;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;
 const int UNIT_NODES = 2;
-const int UNIT_MATERIALS = 5;
-const int UNIT_LIGHTS = 6;
-const int UNIT_LIGHT_TRIANGLES = 7;
-const int UNIT_SAMPLES = 8;
-const int UNIT_OUTLIERS = 9;
-const int UNIT_SUMS = 10;
+const int UNIT_MATERIALS = 3;
+const int UNIT_LIGHTS = 4;
+const int UNIT_LIGHT_TRIANGLES = 5;
+const int UNIT_SITES = 6;
+const int UNIT_GRID_ROWS = UNIT_SITES;  // cells are either around sites or of a grid
+const int UNIT_SITE_LISTS = 7;
+const int UNIT_COLUMN_STARTS = 8;
+const int UNIT_NEXT_VALUES = 9;
+const int UNIT_Q_VALUES = 10;
+const int UNIT_SAMPLES = 11;
+const int UNIT_OUTLIERS = 12;
+const int UNIT_SUMS = 13;
 
 const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
 
@@ -221,8 +244,8 @@ const uint BVH_DEPTH = 64u;
 const uint ACCUMULATE_GROUP_PIXELS = 256u;  // of a work group of accumulate.comp
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
 const uint LIST_BOX_BITS = 10u;
-const uint LIST_COUNT_BITS = 6u;
-const uint LISTED_ALWAYS_FITS = 0x80000000u;  // qualifies for every normal that the surface has in its box
+const uint LIST_COUNT_BITS = 7u;
+const uint LISTED_NORMAL = 0xffffffffu;  // in place of a site
 const uint NORMAL_BOUND_BITS = 5u;  // -1 to 1, in NORMAL_BOUND_STEPS steps
 const uint NORMAL_BOUND_STEPS = (1u << NORMAL_BOUND_BITS) - 1u;
 
@@ -232,10 +255,8 @@ const float TARGET_UNIT = 1.0f / 1048576.0f;
 // Of a target that is the square of a light's contribution, in units of the brightest light: 2^-36 resolves
 // contributions of 4e-6 of its radiance.
 const float LIGHT_TARGET_UNIT = 1.0f / 68719476736.0f;
-// One target is clamped to this many units (2^48): as one step, far below TARGET_SATURATED.
+// One target is clamped to this many units (2^48): as one step, far below a full sum.
 const float TARGET_LIMIT = 281474976710656.0f;
-// A sum whose high word has reached this counts as this; the same bit of its count then stays set.
-const uint TARGET_SATURATED = 0x80000000u;
 
 // Statistics of a frame: 64-bit counters, low and high word. The last ones stay over all frames.
 const uint STATISTIC_RAYS = 0u;

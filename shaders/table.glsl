@@ -8,6 +8,11 @@ const int BINS = 0;
 #endif
 const uint TABLE_COLUMNS = uint(BINS + LIGHT_COLUMNS);
 
+// Place of a cell's mark, behind the sums of all cells: not 0 where the frame taught the cell something.
+uint mark_of(uint cell) {
+  return parameters.path.w * TABLE_COLUMNS * SUM_WORDS + cell;
+}
+
 uint first_bin(uint cell) {
   return cell * TABLE_COLUMNS;
 }

@@ -1,7 +1,22 @@
 // Voronoi cells (the report, section 4.3.1): among the sites of the same object whose normal is close enough,
 // the nearest; of equally near ones, the first. Front and back of a surface are cells of their own.
-layout(std430, binding = BINDING_SITES) restrict readonly buffer SiteBuffer { Site sites[]; };
-layout(std430, binding = BINDING_SITE_RANGES) restrict readonly buffer SiteRangeBuffer { SiteRange site_ranges[]; };
+FETCHED_VEC4(sites, UNIT_SITES);
+// The ranges of the objects, in two elements each. Then entries, four in an element: place << LIST_COUNT_BITS | length
+// of a list. Then the lists: xyz: bits of a position, w: its site within the object; before it, where not every normal
+// of the surface in its box qualifies, an element with xyz: bits of the site's normal, w: LISTED_NORMAL.
+FETCHED_UVEC4(site_lists, UNIT_SITE_LISTS);
+
+SiteRange range_of(uint object) {
+  return SiteRange(fetch(site_lists, 2u * object), uintBitsToFloat(fetch(site_lists, 2u * object + 1u)));
+}
+
+vec4 site_position(uint site) {
+  return fetch(sites, 2u * site);
+}
+
+vec4 site_normal(uint site) {
+  return fetch(sites, 2u * site + 1u);
+}
 
 struct Nearest {
   float distance2;  // infinity where no site qualifies
@@ -21,9 +36,9 @@ bool qualifies(Surface s, vec3 normal) {
 }
 
 // Of a site that qualifies, infinity else.
-float site_distance2(Surface s, Site site) {
-  float distance2 = squared_distance(s, site.position.xyz);
-  return qualifies(s, site.normal.xyz) ? distance2 : INFINITY;
+float site_distance2(Surface s, vec3 position, vec3 normal) {
+  float distance2 = squared_distance(s, position);
+  return qualifies(s, normal) ? distance2 : INFINITY;
 }
 
 #if SITE_SEARCH == SITE_SEARCH_LINEAR
@@ -39,7 +54,8 @@ Nearest nearest_site(Surface s, SiteRange sites_of) {
     if (more) {
       for (uint i = 0u; i < 4u; ++i) {
         uint candidate = min(site + i, count - 1u);
-        float distance2 = site_distance2(s, sites[first + candidate]);
+        uint place = first + candidate;
+        float distance2 = site_distance2(s, site_position(place).xyz, site_normal(place).xyz);
         if (distance2 < nearest.distance2) nearest = Nearest(distance2, candidate);
       }
       site += 4u;
@@ -54,10 +70,6 @@ Nearest nearest_site(Surface s, SiteRange sites_of) {
 
 #if SITE_SEARCH == SITE_SEARCH_LISTS
 
-// Entries, four in an element: place << LIST_COUNT_BITS | length of a list; then the lists: xyz: bits of the position,
-// w: the site within the object | LISTED_ALWAYS_FITS.
-layout(std430, binding = BINDING_SITE_LISTS) restrict readonly buffer SiteListBuffer { uvec4 site_lists[]; };
-
 // Entry of the box that the hit is in, and of the axis that its normal is nearest to; 0 where nothing is listed.
 uint list_entry(Surface s, SiteRange sites_of) {
   const uvec3 shift = uvec3(0u, 1u, 2u) * LIST_BOX_BITS;
@@ -66,7 +78,7 @@ uint list_entry(Surface s, SiteRange sites_of) {
   vec3 place = max((s.position - sites_of.frame.xyz) * sites_of.frame.w, vec3(0.0));
   uvec3 box = min(uvec3(place), boxes - 1u);
   uint entry = sites_of.range.z + ((box.z * boxes.y + box.y) * boxes.x + box.x) * 6u + nearest_axis(s.mesh_normal);
-  return site_lists[entry >> 2][entry & 3u];
+  return fetch(site_lists, entry >> 2)[entry & 3u];
 }
 
 // Looks through the list of the hit's box. Returns whether it has the site; else the tree is searched.
@@ -75,15 +87,15 @@ bool search_list(Surface s, SiteRange sites_of, inout Nearest nearest) {
   uint place = entry >> LIST_COUNT_BITS;
   uint end = place + (entry & ((1u << LIST_COUNT_BITS) - 1u));
   bool more = place < end;
+  bool fits = true;  // the next site
   do {
     if (more) {
-      uvec4 listed = site_lists[place];
-      uint site = listed.w & ~LISTED_ALWAYS_FITS;
-      float distance2 = squared_distance(s, uintBitsToFloat(listed.xyz));
-      if ((listed.w & LISTED_ALWAYS_FITS) == 0u && !qualifies(s, sites[sites_of.range.x + site].normal.xyz)) {
-        distance2 = INFINITY;
-      }
-      if (distance2 < nearest.distance2) nearest = Nearest(distance2, site);
+      uvec4 listed = fetch(site_lists, place);
+      vec3 vector = uintBitsToFloat(listed.xyz);
+      bool is_site = listed.w != LISTED_NORMAL;
+      float distance2 = squared_distance(s, vector);
+      if (is_site && fits && distance2 < nearest.distance2) nearest = Nearest(distance2, listed.w);
+      fits = is_site || qualifies(s, vector);
       ++place;
       more = place < end;
     }
@@ -123,16 +135,17 @@ Nearest nearest_site(Surface s, SiteRange sites_of) {
   bool searching = node != 0u;
   do {
     if (searching) {
-      Site site = sites[first + node - 1u];
+      vec4 position = site_position(first + node - 1u);
+      vec4 normal = site_normal(first + node - 1u);
       bool is_new = previous < node;
-      bool is_open = !is_new || may_qualify(s, floatBitsToUint(site.normal.w));
+      bool is_open = !is_new || may_qualify(s, floatBitsToUint(normal.w));
       if (is_new && is_open) {
-        float distance2 = site_distance2(s, site);
+        float distance2 = site_distance2(s, position.xyz, normal.xyz);
         bool is_first = distance2 == nearest.distance2 && node - 1u < nearest.site;
         if (distance2 < nearest.distance2 || is_first) nearest = Nearest(distance2, node - 1u);
       }
-      uint axis = floatBitsToUint(site.position.w);
-      precise vec3 d = s.position - site.position.xyz;
+      uint axis = floatBitsToUint(position.w);
+      precise vec3 d = s.position - position.xyz;
       float beyond = axis == 0u ? d.x : axis == 1u ? d.y : d.z;
       precise float beyond2 = beyond * beyond;
       uint near = 2u * node + (beyond > 0.0 ? 1u : 0u);
@@ -155,9 +168,9 @@ Nearest nearest_site(Surface s, SiteRange sites_of) {
 #endif
 
 Cell find_cell(Surface s) {
-  SiteRange sites_of = site_ranges[s.object];
+  SiteRange sites_of = range_of(s.object);
   Nearest nearest = nearest_site(s, sites_of);
   if (nearest.distance2 == INFINITY) return no_cell(s);
   uint site = sites_of.range.x + nearest.site;
-  return cell_at(s, 2u * site + (s.back ? 1u : 0u), sites[site].normal.xyz);
+  return cell_at(s, 2u * site + (s.back ? 1u : 0u), site_normal(site).xyz);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +15,11 @@ namespace qtrace {
 namespace {
 
 constexpr std::uint32_t kSidesPerSite = 2;
+constexpr const char* kSites = "Voronoi sites";
 constexpr const char* kGridRows = "grid boxes x 6 normals (rl.grid_resolution)";
+constexpr gpu::BufferUse kSiteUse = gpu::only_fetched(gpu::Texels::float4);
+constexpr gpu::BufferUse kGridUse = gpu::only_fetched(gpu::Texels::uint1);
+constexpr gpu::BufferUse kListUse = gpu::only_fetched(gpu::Texels::uint4);
 static_assert(kNoRow == gpu::NO_ENTRY);
 
 // Rounded away from one another.
@@ -49,15 +54,21 @@ std::vector<gpu::Site> pack_sites(const CellSites& sites, const std::vector<Site
 
 static_assert(kMostBoxesAlongAxis < 1U << gpu::LIST_BOX_BITS);
 
+// Elements of the lists: see site_lists in voronoi.glsl.
+constexpr std::size_t kElementsPerRange = sizeof(gpu::SiteRange) / sizeof(glm::uvec4);
+constexpr std::size_t kEntriesPerElement = 4;
+constexpr std::size_t kMostPerSite = 2;  // a normal and a position
+
 std::vector<gpu::SiteRange> pack_ranges(const CellSites& sites, const SiteLists& lists) {
   std::vector<gpu::SiteRange> ranges;
-  for (std::size_t o = 0; o + 1 < sites.first.size(); ++o) {
+  const std::size_t objects = sites.first.size() - 1;
+  for (std::size_t o = 0; o < objects; ++o) {
     gpu::SiteRange next{};
     next.range = glm::uvec4(sites.first[o], sites.first[o + 1] - sites.first[o], 0, 0);
     if (o < lists.objects.size()) {
       const auto& [frame, first_entry] = lists.objects[o];
       const glm::uvec3 boxes = frame.boxes;
-      next.range.z = first_entry;
+      next.range.z = static_cast<gpu::uint>(kEntriesPerElement * kElementsPerRange * objects) + first_entry;
       next.range.w = boxes.x | boxes.y << gpu::LIST_BOX_BITS | boxes.z << (2 * gpu::LIST_BOX_BITS);
       next.frame = glm::vec4(frame.origin, frame.boxes_per_unit);
     }
@@ -70,30 +81,36 @@ std::vector<gpu::SiteRange> pack_ranges(const CellSites& sites, const SiteLists&
 constexpr std::size_t kMostListBytes = (std::size_t{1} << (32 - gpu::LIST_COUNT_BITS)) * sizeof(glm::uvec4);
 
 std::size_t bytes_of(const SiteLists& lists) {
-  return (lists.starts.size() / 4 + 1 + lists.sites.size()) * sizeof(glm::uvec4);
+  return (kElementsPerRange * lists.objects.size() + lists.starts.size() / kEntriesPerElement + 1 +
+          kMostPerSite * lists.sites.size()) *
+         sizeof(glm::uvec4);
 }
 
-// The entries, four in an element, then the listed sites: see SiteListBuffer in voronoi.glsl.
+glm::uvec4 pack_listed(glm::vec3 v, gpu::uint w) {
+  return {std::bit_cast<gpu::uint>(v.x), std::bit_cast<gpu::uint>(v.y), std::bit_cast<gpu::uint>(v.z), w};
+}
+
 std::vector<glm::uvec4> pack_lists(const CellSites& sites, const SiteLists& lists) {
-  static_assert(kMostListedSites < 1U << gpu::LIST_COUNT_BITS);
-  if (lists.starts.empty()) return {};
+  static_assert(kMostPerSite * kMostListedSites < 1U << gpu::LIST_COUNT_BITS);
+  const std::vector<gpu::SiteRange> ranges = pack_ranges(sites, lists);
+  std::vector<glm::uvec4> packed(kElementsPerRange * ranges.size());
+  if (!ranges.empty()) std::memcpy(packed.data(), ranges.data(), ranges.size() * sizeof(ranges[0]));
+  if (lists.starts.empty()) return packed;
   const std::size_t entries = lists.starts.size() - 1;
-  std::vector<glm::uvec4> packed((entries + 3) / 4, glm::uvec4(0));
-  const std::size_t after = packed.size();
-  for (std::size_t e = 0; e < entries; ++e) {
-    const auto first = static_cast<gpu::uint>(after + lists.starts[e]);
-    packed[e / 4][static_cast<int>(e % 4)] =
-        first << gpu::LIST_COUNT_BITS | (lists.starts[e + 1] - lists.starts[e]);
-  }
+  const std::size_t first_entry = packed.size() * kEntriesPerElement;
+  packed.resize(packed.size() + (entries + kEntriesPerElement - 1) / kEntriesPerElement);
   std::size_t object = 0;
   for (std::size_t e = 0; e < entries; ++e) {
     while (object + 1 < lists.objects.size() && e >= lists.objects[object + 1].first_entry) ++object;
+    const std::size_t begin = packed.size();
     for (std::uint32_t i = lists.starts[e]; i < lists.starts[e + 1]; ++i) {
-      const auto& [site, always_fits] = lists.sites[i];
-      const glm::vec3 p = sites.sites[sites.first[object] + site].position;
-      packed.emplace_back(std::bit_cast<gpu::uint>(p.x), std::bit_cast<gpu::uint>(p.y),
-                          std::bit_cast<gpu::uint>(p.z), site | (always_fits ? gpu::LISTED_ALWAYS_FITS : 0U));
+      const auto& [number, always_fits] = lists.sites[i];
+      const CellSite& site = sites.sites[sites.first[object] + number];
+      if (!always_fits) packed.push_back(pack_listed(site.normal, gpu::LISTED_NORMAL));
+      packed.push_back(pack_listed(site.position, number));
     }
+    packed[(first_entry + e) / kEntriesPerElement][static_cast<int>(e % kEntriesPerElement)] =
+        static_cast<gpu::uint>(begin << gpu::LIST_COUNT_BITS | (packed.size() - begin));
   }
   return packed;
 }
@@ -129,7 +146,7 @@ CellBuffers CellBuffers::voronoi(const Scene& scene, const RlSettings& settings)
   if (settings.site_search == SiteSearch::lists) {
     lists = build_site_lists(scene, sites, nodes, settings.cell_normal_threshold);
     const std::size_t bytes = bytes_of(lists);
-    if (bytes > std::min(gpu::most_buffer_bytes(), kMostListBytes)) {
+    if (bytes > std::min(gpu::most_buffer_bytes(kListUse), kMostListBytes)) {
       sites.warnings.push_back(
           fmt::format("the lists of {} sites would need {} MiB: their tree is searched instead, as by "
                       "rl.site_search tree",
@@ -145,29 +162,26 @@ CellBuffers::CellBuffers(CellSites sites) : CellBuffers(sites, order_as_trees(si
 CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes, const SiteLists& lists)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
-      cells_("Voronoi sites", pack_sites(sites, nodes)),
-      ranges_("site ranges", pack_ranges(sites, lists)),
-      lists_("lists of sites", pack_lists(sites, lists)) {}
+      cells_(kSites, pack_sites(sites, nodes), kSiteUse),
+      lists_("lists of sites", pack_lists(sites, lists), kListUse) {}
 
 CellBuffers::CellBuffers(const CellGrid& grid)
     : states_(grid_states(grid)),
       grid_(grid.frame),
-      cells_(kGridRows, grid.rows),
-      ranges_("site ranges", 0),
-      lists_("lists of sites", 0) {}
+      cells_(kGridRows, grid.rows, kGridUse),
+      lists_("lists of sites", 0, kListUse) {}
 
 void CellBuffers::bind() const {
-  cells_.bind_storage(gpu::BINDING_SITES);
-  ranges_.bind_storage(gpu::BINDING_SITE_RANGES);
-  lists_.bind_storage(gpu::BINDING_SITE_LISTS);
+  cells_.bind_fetched(gpu::UNIT_SITES);  // or UNIT_GRID_ROWS
+  lists_.bind_fetched(gpu::UNIT_SITE_LISTS);
 }
 
 void CellBuffers::check_size(const Scene& scene, const RlSettings& settings) {
   if (settings.cells == CellKind::grid) {
     const GridFrame frame = grid_frame(scene, settings.grid_resolution);
-    gpu::check_buffer_size(kGridRows, frame.entries() * sizeof(std::uint32_t));
+    gpu::check_buffer_size(kGridRows, frame.entries() * sizeof(std::uint32_t), kGridUse);
   } else {
-    gpu::check_buffer_size("Voronoi sites", count(scene, settings) / kSidesPerSite * sizeof(gpu::Site));
+    gpu::check_buffer_size(kSites, count(scene, settings) / kSidesPerSite * sizeof(gpu::Site), kSiteUse);
   }
 }
 

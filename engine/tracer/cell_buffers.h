@@ -42,7 +42,7 @@ class CellBuffers {
   const std::vector<CellState>& states() const { return states_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   const GridFrame& grid() const { return grid_; }  // without boxes unless cells are of a grid
-  std::size_t bytes() const { return cells_.bytes() + ranges_.bytes() + lists_.bytes(); }
+  std::size_t bytes() const { return cells_.bytes() + lists_.bytes(); }
 
   // Throws Error where the device cannot hold what find_cell() reads.
   static void check_size(const Scene& scene, const RlSettings& settings);
@@ -57,9 +57,8 @@ class CellBuffers {
   std::vector<CellState> states_;
   std::vector<std::string> warnings_;
   GridFrame grid_;
-  gpu::Buffer cells_;   // sites, or the rows of a grid's entries
-  gpu::Buffer ranges_;  // of the sites
-  gpu::Buffer lists_;   // of those that can be nearest
+  gpu::Buffer cells_;  // sites, or the rows of a grid's entries
+  gpu::Buffer lists_;  // of the sites' ranges, and of the sites that can be nearest
 };
 
 }  // namespace qtrace

@@ -10,6 +10,13 @@ namespace {
 
 std::uint32_t groups_of(std::uint32_t cells) { return (cells + gpu::LEARN_GROUP - 1) / gpu::LEARN_GROUP; }
 
+constexpr const char* kSums = "Q targets (cells x columns)";
+
+// With the marks of the cells.
+std::size_t sum_bytes(std::size_t cells, std::size_t columns) {
+  return cells * (columns * sizeof(gpu::TargetSum) + sizeof(std::uint32_t));
+}
+
 std::vector<gpu::CellPlace> pack_places(const std::vector<CellState>& states) {
   std::vector<gpu::CellPlace> places;
   places.reserve(states.size());
@@ -24,53 +31,60 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
     : cells_(scene, settings),
       columns_(columns),
       entries_(cells_.count() * columns),
-      values_("Q values (cells x columns)", entries_ * sizeof(float)),
+      values_("Q values (cells x columns)", entries_ * sizeof(float), gpu::also_fetched(gpu::Texels::float1)),
       visits_("Q visits (cells x columns)", entries_ * sizeof(std::uint32_t)),
-      sums_("Q targets (cells x columns)", entries_ * sizeof(gpu::TargetSum)),
-      starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t)),
-      next_values_("Q next values (cells)", cells_.count() * sizeof(float)),
-      touched_("touched cells", sizeof(gpu::TouchedHead) + 2 * cells_.count() * sizeof(std::uint32_t)),
+      sums_(kSums, sum_bytes(cells_.count(), columns)),
+      starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t),
+              gpu::also_fetched(gpu::Texels::uint1)),
+      next_values_("Q next values (cells)", cells_.count() * sizeof(float),
+                   gpu::also_fetched(gpu::Texels::float1)),
+      touched_("touched cells", sizeof(gpu::TouchedHead) + cells_.count() * sizeof(std::uint32_t)),
       places_("places of cells", pack_places(cells_.states())),
       initialize_("initial_table.comp", defines),
+      list_("list_touched.comp", defines),
       learn_("learn.comp", defines) {}
 
 void QTable::bind() const {
   cells_.bind();
   values_.bind_storage(gpu::BINDING_Q_VALUES);
+  values_.bind_fetched(gpu::UNIT_Q_VALUES);
   visits_.bind_storage(gpu::BINDING_Q_VISITS);
   sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
   starts_.bind_storage(gpu::BINDING_COLUMN_STARTS);
+  starts_.bind_fetched(gpu::UNIT_COLUMN_STARTS);
   next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
+  next_values_.bind_fetched(gpu::UNIT_NEXT_VALUES);
   touched_.bind_storage(gpu::BINDING_TOUCHED_CELLS);
 }
 
 void QTable::learn() {
   bind();
+  list_.dispatch(groups_of(cells_.count()));
+  apply();
+}
+
+void QTable::apply() {
   learn_.dispatch_indirect(touched_);
   forget_touched();
 }
 
-void QTable::discard() {
-  sums_.clear();
-  touched_.clear();
-  forget_touched();
-}
+void QTable::discard() { sums_.clear(); }
 
 void QTable::reset() {
   sums_.clear();
   bind();
   places_.bind_storage(gpu::BINDING_CELL_PLACES);
   initialize_.dispatch(groups_of(cells_.count()));
-  touch_all();
-  learn();
+  prepare_all();
 }
 
-void QTable::touch_all() {
+void QTable::prepare_all() {
   std::vector<std::uint32_t> list(cells_.count());
   std::iota(list.begin(), list.end(), 0U);
   const gpu::TouchedHead head{groups_of(cells_.count()), 1, 1, cells_.count()};
   touched_.write(0, &head, sizeof(head));
   touched_.write(sizeof(head), list.data(), list.size() * sizeof(list[0]));
+  apply();
 }
 
 void QTable::forget_touched() {
@@ -96,7 +110,7 @@ void QTable::check_size(std::size_t cells, std::size_t columns) {
         "{} cells (two for each site) are more than the {} that one update can reach; lower the "
         "number of sites",
         cells, kMostCells);
-  gpu::check_buffer_size("Q targets (cells x columns)", cells * columns * sizeof(gpu::TargetSum));
+  gpu::check_buffer_size(kSums, sum_bytes(cells, columns));
   gpu::check_buffer_size("places of cells", cells * sizeof(gpu::CellPlace));
 }
 
@@ -104,8 +118,8 @@ void QTable::set_values(std::span<const float> values) {
   check(values.size() == entries_, "a table of {} values was given for one of {}", values.size(), entries_);
   discard();
   values_.write(0, values.data(), values.size_bytes());
-  touch_all();
-  learn();
+  bind();
+  prepare_all();
 }
 
 }  // namespace qtrace

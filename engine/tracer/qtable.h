@@ -45,7 +45,8 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  void touch_all();  // as if every cell had been taught something
+  void apply();        // to the cells that are listed
+  void prepare_all();  // as if every cell had been taught something
   void forget_touched();
 
   CellBuffers cells_;
@@ -53,12 +54,13 @@ class QTable {
   std::size_t entries_;
   gpu::Buffer values_;
   gpu::Buffer visits_;
-  gpu::Buffer sums_;
+  gpu::Buffer sums_;  // and marks of the cells that have any
   gpu::Buffer starts_;
   gpu::Buffer next_values_;
   gpu::Buffer touched_;
   gpu::Buffer places_;
   gpu::Program initialize_;
+  gpu::Program list_;
   gpu::Program learn_;
 };
 

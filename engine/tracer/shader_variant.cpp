@@ -23,6 +23,7 @@ void define_table(gpu::Defines& defines, const RenderSettings& settings, const g
   defines["BINS_THETA"] = number(settings.rl.bins_theta);
   defines["BINS_PHI"] = number(settings.rl.bins_phi);
   defines["UPDATE_RULE"] = number(settings.rl.update);
+  if (settings.rl.bsdf_fraction > 0) defines["MIXES_BSDF"] = "1";
   defines["MAX_LESSONS"] = number(std::max(settings.max_bounces, 1));
 }
 

@@ -30,7 +30,8 @@ class Expectation : public LearningStage {
             "  float phi = 2.0 * PI * (float(i) + 0.5) / 2048.0;\n  float r = sqrt(1.0 - z * z);\n"
             "  vec3 local = vec3(r * cos(phi), r * sin(phi), z);\n"
             "  vec3 wi = to_world(local, cell.tangent, s.normal);\n"
-            "  sum += q_values[first_bin(uint(cell.index)) + bin_of(local)] * average(bsdf_cosine(s, b, -d, "
+            "  sum += fetch_one(q_values, first_bin(uint(cell.index)) + bin_of(local)) * "
+            "average(bsdf_cosine(s, b, -d, "
             "wi));\n"
             "  ++i;\n} while (i < 2048u);\nresult = vec4(sum);",
         kRows, defines_);

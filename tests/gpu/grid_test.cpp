@@ -128,7 +128,7 @@ TEST(Grid, CountIsWhatIsBuilt) {
 TEST(Grid, TooFineAGridIsRefusedByName) {
   if (!device().device().software) GTEST_SKIP() << "this device may hold it";
   try {
-    check_limits(device(), shipped("cornell_box"), grid_settings(256));
+    check_limits(device(), shipped("cornell_box"), grid_settings(512));
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("rl.grid_resolution"), std::string::npos) << error.what();

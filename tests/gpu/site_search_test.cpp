@@ -103,7 +103,7 @@ std::vector<glm::uvec4> search(const std::vector<Query>& queries, SiteSearch how
       "s.back = false;\n"
       "result = uvec4(uint(find_cell(s).index), loop_was_cut ? 1u : 0u, 0u, 0u);\n"
       "#if SITE_SEARCH == SITE_SEARCH_LISTS\n"
-      "result.z = (list_entry(s, site_ranges[s.object]) & ((1u << LIST_COUNT_BITS) - 1u)) != 0u ? 1u : 0u;\n"
+      "result.z = (list_entry(s, range_of(s.object)) & ((1u << LIST_COUNT_BITS) - 1u)) != 0u ? 1u : 0u;\n"
       "#endif",
       static_cast<std::uint32_t>(queries.size()), shader_defines(settings, {}));
 }
