@@ -32,7 +32,7 @@ WIDTH = 14.0  # inches
 ROW_HEIGHT = 3.6
 DPI = 130
 WHOLE = "whole frame"
-SHORT = EngFormatter(sep="")  # 5M
+ENGINEERING = EngFormatter(sep="")  # 5M
 
 
 def load_parts(folder: Path) -> dict[str, pd.DataFrame]:
@@ -119,6 +119,10 @@ def _draw_steps(figure: Figure, place: SubplotSpec, steps: pd.DataFrame) -> None
     axes.legend(fontsize=7, ncols=3, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
+def _short(value: float) -> str:
+    return f"{value:g}" if value < 10_000 else ENGINEERING.format_eng(float(f"{value:.2g}"))
+
+
 def _draw_growth(figure: Figure, place: SubplotSpec, growth: pd.DataFrame) -> None:
     names = list(dict.fromkeys(growth.axis))
     looks = style.line_styles(dict.fromkeys(growth.method))
@@ -130,7 +134,7 @@ def _draw_growth(figure: Figure, place: SubplotSpec, growth: pd.DataFrame) -> No
         axes.set_yscale("log")
         style.format_log_axis(axes.yaxis, *axes.get_ylim())
         values = sorted(set(growth[growth.axis == name].value))
-        axes.set_xticks(values, [SHORT.format_eng(float(f"{value:.2g}")) for value in values], fontsize=8)
+        axes.set_xticks(values, [_short(value) for value in values], fontsize=7.5)
         axes.xaxis.set_minor_locator(NullLocator())
         axes.set_xlabel(name)
         axes.set_ylabel("ms per frame")

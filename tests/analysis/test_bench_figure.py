@@ -29,7 +29,7 @@ class BenchFigureTest(FolderTest):
             for step, share in (("learning", 0.4), ("cell look-up", -0.1), ("rest", 0.7), ("whole frame", 1))])
         write_csv(self.folder / "growth.csv", [
             {"axis": "bins", "method": "RL", "value": value, **spread("wall_ms", 2 * value), "over_first": value / 4,
-             "cpu_over_first": value / 4} for value in (4, 64, 1024)])
+             "cpu_over_first": value / 4} for value in (4, 64, 1024, 1_002_510)])
 
     def axes(self, title: str = "", label: str = ""):
         figure = bench_figure(load_parts(self.folder))
@@ -60,8 +60,8 @@ class BenchFigureTest(FolderTest):
     def test_growth_has_its_points_as_ticks(self) -> None:
         self.write()
         axes = self.axes(label="bins")
-        self.assertEqual(axes.lines[0].get_ydata().tolist(), [8, 128, 2048])
-        self.assertEqual([tick.get_text() for tick in axes.get_xticklabels()], ["4", "64", "1k"])
+        self.assertEqual(axes.lines[0].get_ydata().tolist(), [8, 128, 2048, 2_005_020])
+        self.assertEqual([tick.get_text() for tick in axes.get_xticklabels()], ["4", "64", "1024", "1M"])
 
     def test_the_command(self) -> None:
         self.write()
