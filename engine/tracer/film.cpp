@@ -58,7 +58,7 @@ RadianceImage image_of(const std::vector<gpu::PixelSum>& sums, int width, int he
 
 }  // namespace
 
-Film::Film(int width, int height)
+Film::Film(int width, int height, gpu::ProgramCache& programs)
     : width_(width),
       height_(height),
       samples_("pixel samples",
@@ -69,7 +69,7 @@ Film::Film(int width, int height)
       outliers_("pixel outliers", static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                       sizeof(gpu::PixelOutliers)),
       statistics_("statistics", sizeof(gpu::Statistics)),
-      accumulate_("accumulate.comp", {}) {}
+      accumulate_(programs.get("accumulate.comp", {})) {}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
@@ -84,8 +84,8 @@ void Film::start_frame() {
 
 void Film::accumulate(std::uint32_t frame) {
   (frame % 2 == 1 ? odd_sums_ : even_sums_).bind_storage(gpu::BINDING_SUMS);
-  accumulate_.set_frame(frame);
-  accumulate_.dispatch(tiles(width_), tiles(height_));
+  accumulate_->set_frame(frame);
+  accumulate_->dispatch(tiles(width_), tiles(height_));
 }
 
 void Film::reset() {
