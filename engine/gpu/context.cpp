@@ -62,6 +62,7 @@ struct Context::State {
   Platform platform;
   EglContext egl;
   DeviceInfo device;
+  ProgramCache programs;  // gone before the context is
 };
 
 Context::Context(const std::string& choice) {
@@ -75,6 +76,8 @@ Context::Context(const std::string& choice) {
 Context::~Context() = default;
 
 const DeviceInfo& Context::device() const { return state_->device; }
+
+ProgramCache& Context::programs() const { return state_->programs; }
 
 void Context::finish() const {
   glFinish();

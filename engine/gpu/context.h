@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/check.h"
+#include "engine/gpu/program_cache.h"
 
 #include <memory>
 #include <string>
@@ -40,7 +41,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const DeviceInfo& device() const;
-  void finish() const;       // returns when all work is done
+  ProgramCache& programs() const;  // for as long as the context is not renewed
+  void finish() const;             // returns when all work is done
   void check_alive() const;  // throws ContextLost after a reset of the device, where the driver tells of it
 
   // A new context on the same device; no object of the old one may be left. Throws Error where there is none.

@@ -57,7 +57,7 @@ RadianceImage image_of(const std::vector<gpu::PixelSum>& sums, int width, int he
 
 }  // namespace
 
-Film::Film(int width, int height)
+Film::Film(int width, int height, gpu::ProgramCache& programs)
     : width_(width),
       height_(height),
       samples_("pixel samples",
@@ -72,7 +72,7 @@ Film::Film(int width, int height)
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
           gpu::also_fetched(gpu::Texels::uint4)),
       statistics_("statistics", sizeof(gpu::Statistics)),
-      accumulate_("accumulate.comp", {}) {}
+      accumulate_(programs.get("accumulate.comp", {})) {}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
@@ -91,9 +91,9 @@ void Film::accumulate(std::uint32_t frame) {
   const gpu::Buffer& sums = frame % 2 == 1 ? odd_sums_ : even_sums_;
   sums.bind_storage(gpu::BINDING_SUMS);
   sums.bind_fetched(gpu::UNIT_SUMS);
-  accumulate_.set_frame(frame);
+  accumulate_->set_frame(frame);
   const auto pixels = static_cast<std::uint32_t>(samples_.bytes() / sizeof(gpu::PixelSample));
-  accumulate_.dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
+  accumulate_->dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
 }
 
 void Film::reset() {

@@ -3,11 +3,12 @@
 
 #include "engine/core/image.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/program.h"
+#include "engine/gpu/program_cache.h"
 #include "engine/tracer/statistics.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace qtrace {
 
 class Film {
  public:
-  Film(int width, int height);
+  Film(int width, int height, gpu::ProgramCache& programs);
 
   void bind() const;
   void start_frame();                    // clears the frame's counters
@@ -49,7 +50,7 @@ class Film {
   gpu::Buffer even_sums_;
   gpu::Buffer outliers_;
   gpu::Buffer statistics_;
-  gpu::Program accumulate_;
+  std::shared_ptr<gpu::Program> accumulate_;
 };
 
 }  // namespace qtrace

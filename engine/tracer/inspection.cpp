@@ -74,11 +74,11 @@ class Sums {
 }  // namespace
 
 struct Inspection::State {
-  State(const Scene& scene, const RenderSettings& wanted)
+  State(const gpu::Context& context, const Scene& scene, const RenderSettings& wanted)
       : settings(wanted),
         buffers(scene, build_bvh(scene, wanted.bvh), truth_settings(wanted).lights),
         cells(scene, wanted.rl),
-        film(1, 1),
+        film(1, 1, context.programs()),
         parameter_block("parameters", sizeof(gpu::Parameters)),
         defines(inspection_defines(wanted, buffers.features())) {
     const gpu::Parameters parameters =
@@ -104,7 +104,7 @@ struct Inspection::State {
 
 Inspection::Inspection(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   check_limits(context, scene, settings);
-  state_ = std::make_unique<State>(scene, settings);
+  state_ = std::make_unique<State>(context, scene, settings);
 }
 
 Inspection::~Inspection() = default;

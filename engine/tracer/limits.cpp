@@ -57,6 +57,20 @@ void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const 
         is_linear ? ", choose rl.site_search lists, lower the number of sites" : "");
 }
 
+// What the count of a sum holds: see TargetSum in structs.glsl.
+constexpr std::uint32_t kMostTargets =
+    1U << (gpu::SUM_LOW_COUNT_BITS + gpu::SUM_MIDDLE_COUNT_BITS + gpu::SUM_HIGH_COUNT_BITS);
+
+void check_targets(const RenderSettings& settings, std::size_t pixels) {
+  // A direction and a light at each event.
+  const double most = 2 * static_cast<double>(pixels) * (settings.max_bounces + 1.0);
+  check(most < kMostTargets,
+        "{}x{} pixels with max_bounces {} may teach one entry of the table {:.0f} times in a frame, and up "
+        "to {} "
+        "are counted; lower width, height or max_bounces",
+        settings.width, settings.height, settings.max_bounces, most, kMostTargets - 1);
+}
+
 void check_lessons(const RenderSettings& settings) {
   if (settings.sampler != Sampler::rl || settings.rl.update != UpdateRule::monte_carlo) return;
   check(
@@ -80,6 +94,7 @@ void check_limits(const gpu::Context& context, const Scene& scene, const RenderS
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
   const std::size_t columns = table_columns(effective, features);
+  check_targets(effective, pixels);
   CellBuffers::check_size(scene, settings.rl);
   QTable::check_size(CellBuffers::count(scene, settings.rl), columns);
   check_loop_budget(context.device(), scene, effective, columns);

@@ -27,7 +27,7 @@ std::vector<gpu::CellPlace> pack_places(const std::vector<CellState>& states) {
 }  // namespace
 
 QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t columns,
-               const gpu::Defines& defines)
+               const gpu::Defines& defines, gpu::ProgramCache& programs)
     : cells_(scene, settings),
       columns_(columns),
       entries_(cells_.count() * columns),
@@ -40,9 +40,9 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
                    gpu::also_fetched(gpu::Texels::float1)),
       touched_("touched cells", sizeof(gpu::TouchedHead) + cells_.count() * sizeof(std::uint32_t)),
       places_("places of cells", pack_places(cells_.states())),
-      initialize_("initial_table.comp", defines),
-      list_("list_touched.comp", defines),
-      learn_("learn.comp", defines) {}
+      initialize_(programs.get("initial_table.comp", defines)),
+      list_(programs.get("list_touched.comp", defines)),
+      learn_(programs.get("learn.comp", defines)) {}
 
 void QTable::bind() const {
   cells_.bind();
@@ -59,12 +59,12 @@ void QTable::bind() const {
 
 void QTable::learn() {
   bind();
-  list_.dispatch(groups_of(cells_.count()));
+  list_->dispatch(groups_of(cells_.count()));
   apply();
 }
 
 void QTable::apply() {
-  learn_.dispatch_indirect(touched_);
+  learn_->dispatch_indirect(touched_);
   forget_touched();
 }
 
@@ -74,7 +74,7 @@ void QTable::reset() {
   sums_.clear();
   bind();
   places_.bind_storage(gpu::BINDING_CELL_PLACES);
-  initialize_.dispatch(groups_of(cells_.count()));
+  initialize_->dispatch(groups_of(cells_.count()));
   prepare_all();
 }
 

@@ -3,11 +3,12 @@
 
 #include "engine/core/settings.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/program.h"
+#include "engine/gpu/program_cache.h"
 #include "engine/scene/scene.h"
 #include "engine/tracer/cell_buffers.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace qtrace {
 class QTable {
  public:
   // `columns`: of a row (table_columns() of shader_variant.h).
-  QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines);
+  QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines,
+         gpu::ProgramCache& programs);
 
   void bind() const;
   // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be
@@ -59,9 +61,9 @@ class QTable {
   gpu::Buffer next_values_;
   gpu::Buffer touched_;
   gpu::Buffer places_;
-  gpu::Program initialize_;
-  gpu::Program list_;
-  gpu::Program learn_;
+  std::shared_ptr<gpu::Program> initialize_;
+  std::shared_ptr<gpu::Program> list_;
+  std::shared_ptr<gpu::Program> learn_;
 };
 
 }  // namespace qtrace

@@ -30,12 +30,13 @@ struct Tracer::State {
       : context(gpu_context),
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
-        film(wanted.width, wanted.height),
+        film(wanted.width, wanted.height, context.programs()),
         parameter_block("parameters", sizeof(gpu::Parameters)),
-        trace("trace.comp", joined(shader_defines(settings, buffers.features()), more)) {
+        trace(context.programs().get("trace.comp",
+                                     joined(shader_defines(settings, buffers.features()), more))) {
     if (has_table(settings)) {
       table.emplace(scene, settings.rl, table_columns(settings, buffers.features()),
-                    shader_defines(settings, buffers.features()));
+                    shader_defines(settings, buffers.features()), context.programs());
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
@@ -68,8 +69,8 @@ struct Tracer::State {
   void warm_up() {
     bind();
     if (table) table->reset();
-    trace.set_frame(0);
-    trace.dispatch(1);
+    trace->set_frame(0);
+    trace->dispatch(1);
     film.accumulate(0);
     context.finish();
     film.check_loops();
@@ -83,7 +84,7 @@ struct Tracer::State {
   RenderSettings settings;  // as they take effect
   Film film;
   gpu::Buffer parameter_block;
-  gpu::Program trace;
+  std::shared_ptr<gpu::Program> trace;
   std::optional<QTable> table;
   std::vector<std::string> warnings;
   std::uint32_t frames = 0;
@@ -112,9 +113,9 @@ void Tracer::render_frame() {
   ++s.frames;
   s.bind();
   s.film.start_frame();
-  s.trace.set_frame(s.frames);
+  s.trace->set_frame(s.frames);
   const auto [x, y] = s.groups();
-  s.trace.dispatch(x, y);
+  s.trace->dispatch(x, y);
   s.film.accumulate(s.frames);
   if (!s.table) return;
   if (s.learning)
@@ -167,9 +168,10 @@ FirstHitImage Tracer::first_hit() const {
   gpu::Buffer output("first hits", pixels * sizeof(gpu::FirstHit));
   s.bind();
   output.bind_storage(gpu::BINDING_OUTPUT);
-  const gpu::Program program("first_hit.comp", shader_defines(s.settings, s.buffers.features()));
+  const auto program =
+      s.context.programs().get("first_hit.comp", shader_defines(s.settings, s.buffers.features()));
   const auto [x, y] = s.groups();
-  program.dispatch(x, y);
+  program->dispatch(x, y);
   s.context.finish();
   s.film.check_loops();
   FirstHitImage image{s.settings.width, s.settings.height, {}, {}, {}, {}};

@@ -74,7 +74,7 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
   if (device().device().renderer.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "no loop budget is known";
   settings_.rl.sites_per_object = 100000;
-  const QTable table(scene_, settings_.rl, 4, defines_);
+  const QTable table(scene_, settings_.rl, 4, defines_, device().programs());
   table.bind();
   const std::string body =
       kViewedSurface +

@@ -89,7 +89,8 @@ class Stage {
         buffers_(scene_, build_bvh(scene_, BvhKind::sah)) {
     defines_ = shader_defines(settings_, buffers_.features());
     if (c.sampler == Sampler::rl) {
-      table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_);
+      table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_,
+                     device().programs());
     }
     const gpu::Parameters parameters =
         make_parameters(scene_.camera, settings_, buffers_.features(), table_ ? &table_->cells() : nullptr);

@@ -33,7 +33,8 @@ class LearningStage : public testing::Test {
   void build() {
     buffers_.emplace(scene_, build_bvh(scene_, BvhKind::sah));
     defines_ = shader_defines(settings_, buffers_->features());
-    table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_->features()), defines_);
+    table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_->features()), defines_,
+                   device().programs());
     const gpu::Parameters parameters =
         make_parameters(scene_.camera, settings_, buffers_->features(), &table_->cells());
     block_.write(0, &parameters, sizeof(parameters));
