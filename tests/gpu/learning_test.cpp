@@ -19,9 +19,19 @@ TEST_F(Learning, HoldsElevenDecades) {
   EXPECT_NEAR(table_->values()[1] / 1e-3, 1, 1e-3);
 }
 
-// Past the limit a sum stays at the limit: it neither wraps nor depends on the order of threads.
+// Sum and number of the targets share words: what runs over in the one must not reach the other. So many
+// counts run over in all words.
+TEST_F(Learning, CountsDoNotReachTheSums) {
+  constexpr std::uint32_t kTargets = (1 << 20) + 77;
+  teach("0u", "1.0 / 1048576.0", kTargets);
+  EXPECT_FLOAT_EQ(table_->values()[0] * 1048576, 1);
+  EXPECT_EQ(table_->visits()[0], kTargets);
+}
+
+// Past the limit a sum stays at the limit: it neither wraps, as the words of so many would, nor depends on
+// the order of threads.
 TEST_F(Learning, SaturatesInsteadOfWrapping) {
-  constexpr std::uint32_t kTargets = 1 << 17;
+  constexpr std::uint32_t kTargets = 1 << 20;
   teach("0u", "1e30", kTargets);
   const double limit = 9223372036854775808.0 / 1048576.0;
   EXPECT_NEAR(table_->values()[0] / (limit / kTargets), 1, 1e-5);
