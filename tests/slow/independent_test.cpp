@@ -19,8 +19,8 @@ constexpr double kChance = 1e-4;  // that a true renderer fails one comparison
 // estimation, small lights are found by chance alone.
 constexpr double kPrecision = 1e-3;
 constexpr int kSize = 128;  // 1024 blocks
-constexpr int kSamples = 1 << 10, kMostSamples = 1 << 12;
-constexpr int kFrames = 1 << 9, kMostFrames = 1 << 11;
+constexpr int kSamples = 1 << 9, kMostSamples = 1 << 11;
+constexpr int kFrames = 1 << 9, kMostFrames = 1 << 12;
 // What a table calls agreement.
 constexpr double kChi2Bound = 0.1, kErrors = 3;
 
