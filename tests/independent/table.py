@@ -17,8 +17,9 @@ compared with the path tracer of `tests/independent`, which shares no code with 
 difference and its variance, 1 if both show the same: per pixel, and of the means of blocks of 4 × 4. The mean ratio is
 that of the two images. All with one standard error. `frames` are the renderer's samples per pixel, `samples` the
 independent tracer's: as many as it takes for 0.1 % of the mean, or the most that are spent, where the error says what
-was reached. "agrees": χ² within 0.9 to 1.1 and the mean within three standard errors. `./dev independent` makes it
-again, `./dev independent SCENE` one scene.
+was reached. "agrees": χ² per pixel within 0.9 to 1.1, the mean within three standard errors, and all three figures
+within what chance makes of true ones but once in 10,000 comparisons. The methods of a scene share the independent
+tracer's image. `./dev independent` makes it again, `./dev independent SCENE` one scene.
 """
 
 

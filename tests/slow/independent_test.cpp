@@ -32,7 +32,8 @@ Work most_work(const std::string& scene) {
   return {2048, 4096};
 }
 
-// What a table calls agreement.
+// What a table calls agreement: of the chi-square per pixel, which 16,384 pixels tell to 0.013. That of
+// blocks is told to 0.05 only, so it is judged by its error.
 constexpr double kChi2Bound = 0.1, kErrors = 3;
 
 class SlowIndependent : public testing::TestWithParam<const char*> {};
@@ -41,12 +42,10 @@ std::string name_of(const std::string& scene) { return scene.substr(0, scene.fin
 
 std::string verdict(const Agreement& found) {
   const double errors = std::abs(found.mean_ratio - 1) / found.mean_ratio_error;
-  const bool chi2_is_one =
-      std::abs(found.pixels.value - 1) <= kChi2Bound && std::abs(found.blocks.value - 1) <= kChi2Bound;
-  if (chi2_is_one && errors <= kErrors) return "agrees";
+  if (!found.agrees(kChance) || std::abs(found.pixels.value - 1) > kChi2Bound) return "**differs**";
+  if (errors <= kErrors) return "agrees";
   // Of so many comparisons, some are there by chance.
-  if (found.agrees(kChance)) return fmt::format("within chance, mean off by {:.1f} errors", errors);
-  return "**differs**";
+  return fmt::format("within chance, mean off by {:.1f} errors", errors);
 }
 
 void print_row(const std::string& scene, Sampler sampler, Nee nee, const Agreement& found, int samples) {
