@@ -61,7 +61,8 @@ double Comparison::truth_error() const {
   return std::sqrt(variance) / sum;
 }
 
-Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision) const {
+Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision,
+                              const std::function<void(const Agreement&)>& watch) const {
   RenderSettings settings;
   settings.width = settings.height = size_.size;
   settings.max_bounces = kBounces;
@@ -78,6 +79,7 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
     result = compare(r.image);
     result.frames = static_cast<int>(tracer.frames());
     result.non_finite = non_finite;
+    if (watch) watch(result);
   } while (result.mean_ratio_error > precision && result.frames + frames <= most_frames);
   return result;
 }

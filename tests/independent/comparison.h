@@ -7,6 +7,7 @@
 #include "tests/independent/path_tracer.h"
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ class Comparison {
   int samples() const { return samples_; }  // of the independent tracer, per pixel
 
   // Renders at least `frames`, and on up to `most_frames` until the ratio of the means is known to
-  // `precision`.
-  Agreement measure(Sampler sampler, Nee nee, int frames, int most_frames = 0, double precision = 0) const;
+  // `precision`. `watch` sees what is known after each part of `frames`.
+  Agreement measure(Sampler sampler, Nee nee, int frames, int most_frames = 0, double precision = 0,
+                    const std::function<void(const Agreement&)>& watch = {}) const;
 
  private:
   Agreement compare(const RadianceImage& image) const;
