@@ -106,6 +106,16 @@ bool search_list(Surface s, SiteRange sites_of, inout Nearest nearest) {
 
 #endif
 
+#ifdef LISTS_ARE_COMPLETE
+
+Nearest nearest_site(Surface s, SiteRange sites_of) {
+  Nearest nearest = Nearest(INFINITY, 0u);
+  search_list(s, sites_of, nearest);
+  return nearest;
+}
+
+#else
+
 // What rounding can add to a cosine of normals, and take from a bound of it, is below some 1e-6.
 const float COSINE_ROUNDING = 1e-5;
 
@@ -164,6 +174,8 @@ Nearest nearest_site(Surface s, SiteRange sites_of) {
   loop_was_cut = loop_was_cut || node != 0u;
   return nearest;
 }
+
+#endif  // LISTS_ARE_COMPLETE
 
 #endif
 

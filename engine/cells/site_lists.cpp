@@ -64,7 +64,7 @@ class ObjectBuilder {
 
   void append_to(SiteLists& lists) const {
     for (const std::uint32_t place : index_) {
-      if (place != kNone) append_list(surfaces_[place], lists.sites);
+      if (place != kNone && !append_list(surfaces_[place], lists.sites)) lists.complete = false;
       lists.starts.push_back(static_cast<std::uint32_t>(lists.sites.size()));
     }
   }
@@ -160,11 +160,12 @@ class ObjectBuilder {
     if (std::max(left, right) * std::max(left, right) <= radius2) visit_near(far, s, radius2, visit);
   }
 
-  void append_list(const Surfaces& s, std::vector<ListedSite>& list) const {
-    if (s.any_normal) return;
+  // Returns whether there is one.
+  bool append_list(const Surfaces& s, std::vector<ListedSite>& list) const {
+    if (s.any_normal) return false;
     const Cone cone(s.normals);
     // Wider ones need not hold what lies between their normals.
-    if (cone.angle >= kWidestCone) return;
+    if (cone.angle >= kWidestCone) return false;
     // Cosine between a normal of the cone and the site's: the least and the largest.
     const auto cosine = [&](std::size_t site, double side) {
       const double angle =
@@ -191,6 +192,7 @@ class ObjectBuilder {
     });
     if (radius2 == kGivenUp) list.resize(first);
     std::ranges::sort(list.begin() + static_cast<std::ptrdiff_t>(first), list.end(), {}, &ListedSite::site);
+    return radius2 != kGivenUp;
   }
 
   std::span<const Triangle> triangles_;

@@ -162,6 +162,7 @@ CellBuffers::CellBuffers(CellSites sites) : CellBuffers(sites, order_as_trees(si
 CellBuffers::CellBuffers(const CellSites& sites, const std::vector<SiteNode>& nodes, const SiteLists& lists)
     : states_(site_states(sites)),
       warnings_(sites.warnings),
+      lists_are_complete_(!lists.objects.empty() && lists.complete),
       cells_(kSites, pack_sites(sites, nodes), kSiteUse),
       lists_("lists of sites", pack_lists(sites, lists), kListUse) {}
 

@@ -39,6 +39,11 @@ std::size_t table_columns(const RenderSettings& settings, const gpu::SceneFeatur
   return static_cast<std::size_t>(bins) + (learns_lights(settings) ? features.lights : 0);
 }
 
+gpu::Defines with_cells(gpu::Defines defines, const CellBuffers& cells) {
+  if (cells.lists_are_complete()) defines["LISTS_ARE_COMPLETE"] = "1";
+  return defines;
+}
+
 gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatures& features) {
   const RenderSettings settings = effective_settings(wanted, features);
   gpu::Defines defines;

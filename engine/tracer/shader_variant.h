@@ -3,6 +3,7 @@
 
 #include "engine/core/settings.h"
 #include "engine/gpu/scene_buffers.h"
+#include "engine/tracer/cell_buffers.h"
 #include "engine/gpu/shader_source.h"
 
 namespace qtrace {
@@ -15,5 +16,8 @@ RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatu
 std::size_t table_columns(const RenderSettings& settings, const gpu::SceneFeatures& features);
 
 gpu::Defines shader_defines(const RenderSettings& settings, const gpu::SceneFeatures& features);
+
+// And of what these cells allow the tracing shader to leave out.
+gpu::Defines with_cells(gpu::Defines defines, const CellBuffers& cells);
 
 }  // namespace qtrace

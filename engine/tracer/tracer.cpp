@@ -31,13 +31,14 @@ struct Tracer::State {
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height, context.programs()),
-        parameter_block("parameters", sizeof(gpu::Parameters)),
-        trace(context.programs().get("trace.comp",
-                                     joined(shader_defines(settings, buffers.features()), more))) {
+        parameter_block("parameters", sizeof(gpu::Parameters)) {
+    gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
-      table.emplace(scene, settings.rl, table_columns(settings, buffers.features()),
-                    shader_defines(settings, buffers.features()), context.programs());
+      table.emplace(scene, settings.rl, table_columns(settings, buffers.features()), defines,
+                    context.programs());
+      defines = with_cells(defines, table->cells());
     }
+    trace = context.programs().get("trace.comp", joined(defines, more));
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
     parameter_block.write(0, &parameters, sizeof(parameters));

@@ -62,17 +62,22 @@ gpu::Program program_of(TraceForm form, const gpu::Defines& defines) {
   return gpu::Program(gpu::assemble("trace.comp of the benchmark", text, gpu::with_fetch(defines)));
 }
 
+std::array<gpu::Program, kTraceForms.size()> programs_of(const gpu::Defines& defines) {
+  return {program_of(TraceForm::plain, defines), program_of(TraceForm::cell_twice, defines),
+          program_of(TraceForm::direction_twice, defines), program_of(TraceForm::no_targets, defines)};
+}
+
 }  // namespace
 
-StagedFrame::StagedFrame(const Scene& scene, const RenderSettings& settings)
+StagedFrame::StagedFrame(const gpu::Context& context, const Scene& scene, const RenderSettings& settings)
     : buffers_(scene, build_bvh(scene, settings.bvh), settings.lights),
       settings_(effective_settings(settings, buffers_.features())),
       defines_(shader_defines(settings_, buffers_.features())),
-      table_(scene, settings_.rl, table_columns(settings_, buffers_.features()), defines_),
-      film_(settings_.width, settings_.height),
+      table_(scene, settings_.rl, table_columns(settings_, buffers_.features()), defines_,
+             context.programs()),
+      film_(settings_.width, settings_.height, context.programs()),
       parameters_("parameters", sizeof(gpu::Parameters)),
-      trace_{program_of(TraceForm::plain, defines_), program_of(TraceForm::cell_twice, defines_),
-             program_of(TraceForm::direction_twice, defines_), program_of(TraceForm::no_targets, defines_)} {
+      trace_(programs_of(with_cells(defines_, table_.cells()))) {
   check(settings_.clamp_radiance == 0, "the passes of a frame are timed without clamping");
   const gpu::Parameters block =
       make_parameters(scene.camera, settings_, buffers_.features(), &table_.cells());

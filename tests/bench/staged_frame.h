@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, 4> kTraceForms{"plain", "cells twi
 // What a Tracer does for the sampler rl, one pass at a time.
 class StagedFrame {
  public:
-  StagedFrame(const Scene& scene, const RenderSettings& settings);
+  StagedFrame(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
 
   // None of these waits.
   void trace(TraceForm form);

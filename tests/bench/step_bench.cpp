@@ -162,7 +162,7 @@ void bench_steps(const gpu::Context& context, const FrameBenchOptions& options) 
   for (const experiments::Run& run : experiment.runs) {
     if (run.config.render.sampler != Sampler::rl) continue;
     const Scene& scene = scenes.load(experiment.scene_file(run)).scene;
-    StagedFrame frame(scene, run.config.render);
+    StagedFrame frame(context, scene, run.config.render);
     check_same_image(context, scene, run.config.render, frame);
     std::vector<Contender> contenders = contenders_of(context, frame);
     run_rounds(contenders, options.rounds);
