@@ -13,7 +13,7 @@
 
 namespace qtrace {
 
-inline constexpr std::uint32_t kMostListedSites = 32;
+inline constexpr std::uint32_t kMostListedSites = 120;      // poles of spheres have that many
 inline constexpr std::uint32_t kMostBoxesAlongAxis = 1023;  // ten bits
 
 struct ObjectLists {
@@ -30,13 +30,14 @@ struct SiteLists {
   std::vector<ObjectLists> objects;
   std::vector<std::uint32_t> starts;  // entry e lists sites[starts[e]] up to sites[starts[e + 1]], ascending
   std::vector<ListedSite> sites;
-  // Whether every piece of the surface has its list. It has none where more than kMostListedSites can win, and where
-  // normals are anything (interpolated ones that cancel, a cone of nearly a hemisphere): there the tree is searched.
+  // Whether every piece of the surface has its list. It has none where more than kMostListedSites can win,
+  // and where normals are anything (interpolated ones that cancel, a cone of nearly a hemisphere): there the
+  // tree is searched.
   bool complete = true;
 };
 
-// `cells` in the order of `nodes`. A list is empty where no surface lies, where no site qualifies, and where the
-// surface has none.
+// `cells` in the order of `nodes`. A list is empty where no surface lies, where no site qualifies, and where
+// the surface has none.
 //
 // A site is left out only where another is nearer to every point of the surface in the box and qualifies for
 // every normal that the surface has there.
