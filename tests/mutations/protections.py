@@ -46,7 +46,7 @@ PROTECTIONS = [
         "engine/scene/gltf_triangle.cpp", "constexpr double kMinRelativeHeight = 1e-7;",
         "constexpr double kMinRelativeHeight = 1e-4;"),)),
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
-        "engine/scene/gltf.cpp", "  gltf::drop_duplicates(source, scene);\n", ""),)),
+        "engine/scene/gltf.cpp", "  drop_duplicates(source, scene);\n", ""),)),
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
         "engine/scene/gltf_triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
