@@ -5,6 +5,7 @@
 #include "engine/scene/analytic.h"
 #include "engine/scene/gltf.h"
 #include "tests/support/probe.h"
+#include "tests/support/ray_queries.h"
 #include "tests/support/render.h"
 
 #include <gtest/gtest.h>
@@ -17,48 +18,23 @@ namespace {
 
 constexpr std::uint32_t kRays = 20000;
 
-struct RayPair {
-  glm::vec4 origin;
-  glm::vec4 direction;
-};
-
-// Rays between random points of the scene's box, made larger by `more` on every side.
-std::vector<RayPair> random_rays(const Bvh& bvh, float more = 0) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> uniform;
-  const auto point = [&] {
-    const glm::vec3 u(uniform(random), uniform(random), uniform(random));
-    return bvh.nodes[0].lo - more + u * (bvh.nodes[0].hi - bvh.nodes[0].lo + 2 * more);
-  };
-  std::vector<RayPair> rays(kRays);
-  for (RayPair& ray : rays) {
-    ray.origin = glm::vec4(point(), 0);
-    ray.direction = glm::vec4(glm::normalize(point() - glm::vec3(ray.origin)), 0);
-  }
-  return rays;
-}
-
-gpu::Defines defines_of(const Bvh& bvh) { return {{"BVH", std::to_string(static_cast<int>(bvh.kind))}}; }
-
 void expect_same_hits(const Scene& scene, BvhKind kind, float more = 0) {
   device();
   const Bvh bvh = build_bvh(scene, kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
-  const std::vector<RayPair> rays = random_rays(bvh, more);
+  const std::vector<RayPair> rays = random_rays(bvh, kRays, 3, more);
   const gpu::Buffer input("rays", std::span<const RayPair>(rays));
   input.bind_storage(gpu::BINDING_SAMPLES);
   const auto hits = probe<glm::uvec4>(
-      "uvec4", {"traverse.glsl"},
-      "struct RayPair { vec4 origin; vec4 direction; };\n"
-      "layout(std430, binding = BINDING_SAMPLES) readonly buffer RayBuffer { RayPair rays[]; };",
+      "uvec4", {"traverse.glsl"}, kRayBuffer,
       "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
       "bool occluded = is_occluded(rays[index].origin.xyz, rays[index].direction.xyz * hit.t * 0.999);\n"
       "bool found = is_occluded(rays[index].origin.xyz, rays[index].direction.xyz * min(hit.t, 1e4) * "
       "1.001);\n"
       "result = uvec4(hit.triangle, floatBitsToUint(hit.t), (occluded ? 1u : 0u) | (found ? 2u : 0u), "
       "loop_was_cut ? 1u : 0u);",
-      kRays, defines_of(bvh));
+      kRays, defines_of(kind));
   int differences = 0;
   for (std::uint32_t i = 0; i < kRays; ++i) {
     const auto truth = closest_hit(scene, bvh, {glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)});
@@ -100,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TraversalOf, testing::Values(BvhKind::sah, BvhKi
 TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
   const Bvh bvh = build_bvh(scene, BvhKind::threaded);
-  const std::vector<RayPair> rays = random_rays(bvh);
+  const std::vector<RayPair> rays = random_rays(bvh, kRays, 3);
   for (std::size_t i = 0; i < 200; ++i) {
     const Ray ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};
     std::optional<RayHit> best;

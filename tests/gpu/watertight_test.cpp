@@ -5,6 +5,7 @@
 #include "engine/tracer/parameters.h"
 #include "tests/support/bumpy_ball.h"
 #include "tests/support/probe.h"
+#include "tests/support/ray_queries.h"
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -54,7 +55,7 @@ std::size_t count_leaks(const Scene& scene, BvhKind kind, glm::vec3 middle, cons
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"
            "Hit hit = closest_hit(from, direction);\n" +
                body,
-           kRays, {{"BVH", std::to_string(static_cast<int>(kind))}})) {
+           kRays, defines_of(kind))) {
     leaks += r.x;
   }
   return leaks;

@@ -5,6 +5,7 @@
 #include "engine/scene/gltf.h"
 #include "tests/support/bumpy_ball.h"
 #include "tests/support/probe.h"
+#include "tests/support/ray_queries.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,28 +25,6 @@ constexpr double kBorder =
 constexpr double kDistance = 1e-4;  // of t, relative
 // Of t, in units of the largest coordinate: 4 units in the last place.
 constexpr double kRounding = 4.0 / 16777216.0;
-
-struct RayPair {
-  glm::vec4 origin;
-  glm::vec4 direction;
-};
-
-std::vector<RayPair> random_rays(const Bvh& bvh, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> uniform;
-  const auto point = [&] {
-    const glm::vec3 u(uniform(random), uniform(random), uniform(random));
-    return bvh.nodes[0].lo + u * (bvh.nodes[0].hi - bvh.nodes[0].lo);
-  };
-  std::vector<RayPair> rays(kBatch);
-  for (RayPair& ray : rays) {
-    ray.origin = glm::vec4(point(), 0);
-    ray.direction = glm::vec4(glm::normalize(point() - glm::vec3(ray.origin)), 0);
-  }
-  return rays;
-}
-
-gpu::Defines defines_of(BvhKind kind) { return {{"BVH", std::to_string(static_cast<int>(kind))}}; }
 
 // Smallest barycentric weight and t of a ray's plane hit, in double precision.
 struct PlaneHit {
@@ -88,16 +67,14 @@ void compare_with_oracle(const std::string& name, BvhKind kind) {
   std::size_t differences = 0;
   std::size_t unexplained = 0;
   for (std::uint32_t batch = 0; batch < kOracleBatches; ++batch) {
-    const std::vector<RayPair> rays = random_rays(bvh, 100 + batch);
+    const std::vector<RayPair> rays = random_rays(bvh, kBatch, 100 + batch);
     const gpu::Buffer input("rays", std::span<const RayPair>(rays));
     input.bind_storage(gpu::BINDING_SAMPLES);
-    const auto hits = probe<glm::uvec4>(
-        "uvec4", {"traverse.glsl"},
-        "struct RayPair { vec4 origin; vec4 direction; };\n"
-        "layout(std430, binding = BINDING_SAMPLES) readonly buffer RayBuffer { RayPair rays[]; };",
-        "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
-        "result = uvec4(hit.triangle, floatBitsToUint(hit.t), loop_was_cut ? 1u : 0u, 0u);",
-        kBatch, defines_of(kind));
+    const auto hits =
+        probe<glm::uvec4>("uvec4", {"traverse.glsl"}, kRayBuffer,
+                          "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
+                          "result = uvec4(hit.triangle, floatBitsToUint(hit.t), loop_was_cut ? 1u : 0u, 0u);",
+                          kBatch, defines_of(kind));
     for (std::uint32_t i = 0; i < kBatch; ++i) {
       const Ray ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};
       const auto truth = closest_hit(scene, bvh, ray);
