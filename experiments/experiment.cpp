@@ -84,11 +84,15 @@ class Work {
     };
     std::size_t found = 0;
     for (const Turn& turn : execution_order(experiment_)) {
-      auto record = store_of(run_of(turn)).read_record(run_of(turn), complain);
+      const RunStore store = store_of(run_of(turn));
+      auto record = store.read_record(run_of(turn), complain);
       if (!record) continue;
       record->place = turn.place;
       record->order = turn.order;
-      if (record->status == "finished") ++found;
+      if (record->status == "finished") {
+        ++found;
+        store.remove_checkpoint(files_);  // the process may have ended before it did
+      }
       journal_.adopt(std::move(*record));
     }
     if (found > 0) {

@@ -72,7 +72,7 @@ std::optional<Checkpoint> RunStore::read_checkpoint(const Complaint& complain) c
 }
 
 void RunStore::remove_checkpoint(FileQueue& files) const {
-  if (fs::exists(folder_ / kCheckpoint)) files.remove(folder_ / kCheckpoint);
+  files.remove(folder_ / kCheckpoint);  // also one that still waits to be written
 }
 
 void RunStore::write_record(FileQueue& files, const RunRecord& record) const {

@@ -100,6 +100,23 @@ TEST_F(Resume, AFinishedSweepIsNotDoneAgain) {
   EXPECT_EQ(summary, folder_.read("results/done/summary.csv"));  // to the bit, with its times
 }
 
+// A process that ends between a run's last manifest and the removal of its state.
+TEST_F(Resume, StatesOfFinishedRunsAreClearedAway) {
+  write_config("cleared");
+  ASSERT_EQ(again("cleared").exit_code, 0);
+  const auto states = [&] {
+    std::vector<std::string> found;
+    for (const std::string& name : tree(folder_ / "results/cleared")) {
+      if (name.ends_with("checkpoint.state")) found.push_back(name);
+    }
+    return found;
+  };
+  EXPECT_EQ(states(), std::vector<std::string>{});
+  folder_.write("results/cleared/method=rl,seed=2/checkpoint.state", "left behind");
+  EXPECT_EQ(again("cleared").exit_code, 0);
+  EXPECT_EQ(states(), std::vector<std::string>{});
+}
+
 TEST_F(Resume, SignalsEndAfterTheFrameAndTheSweepGoesOn) {
   write_config("whole");
   ASSERT_EQ(again("whole").exit_code, 0);
