@@ -23,6 +23,11 @@ struct Bounds {
   }
   // Halved first: the sum of two large coordinates could overflow.
   glm::vec3 centre() const { return lo * 0.5F + hi * 0.5F; }
+  int longest_axis() const {
+    const glm::vec3 size = hi - lo;
+    if (size.x >= size.y && size.x >= size.z) return 0;
+    return size.y >= size.z ? 1 : 2;
+  }
 };
 
 inline Bounds bounds_of(const Triangle& triangle) {

@@ -13,12 +13,6 @@ constexpr std::uint32_t kLeafTriangles = 4;
 
 glm::vec3 centre(const Triangle& t) { return bounds_of(t).centre(); }
 
-int longest_axis(const Bounds& b) {
-  const glm::vec3 size = b.hi - b.lo;
-  if (size.x >= size.y && size.x >= size.z) return 0;
-  return size.y >= size.z ? 1 : 2;
-}
-
 class Builder {
  public:
   Builder(const Scene& scene, std::uint32_t leaf_size) : scene_(scene), leaf_size_(leaf_size) {
@@ -38,7 +32,7 @@ class Builder {
     bvh_.nodes.push_back({bounds.lo, bounds.hi, miss, first, count});
     if (count <= leaf_size_) return;
     const std::uint32_t left = count / 2;
-    split(first, left, count, longest_axis(bounds));
+    split(first, left, count, bounds.longest_axis());
     bvh_.nodes[index].count = 0;
     const std::size_t left_index = bvh_.nodes.size();
     build(first, left, kNoNode);

@@ -166,8 +166,7 @@ class Builder {
   }
 
   static std::size_t halve(std::span<Item> items, const Bounds& centres) {
-    const glm::vec3 size = centres.hi - centres.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = centres.longest_axis();
     const std::size_t left = items.size() / 2;
     std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(left),
                              [&](const Item& a, const Item& b) {
