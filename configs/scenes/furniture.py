@@ -15,6 +15,13 @@ def table(x: float, z: float) -> list[Island]:
     return _joined([box((x, 0.74, z), (1.2, 0.04, 0.8)), *legs])
 
 
+def chair(x: float, z: float) -> list[Island]:
+    """Its back towards -z."""
+    legs = [box((x + dx, 0.215, z + dz), (0.04, 0.43, 0.04)) for dx in (-0.18, 0.18) for dz in (-0.18, 0.18)]
+    posts = [box((x + dx, 0.68, z - 0.2), (0.03, 0.44, 0.03)) for dx in (-0.18, 0.18)]
+    return _joined([box((x, 0.45, z), (0.44, 0.04, 0.44)), *legs, *posts, box((x, 0.82, z - 0.2), (0.33, 0.16, 0.02))])
+
+
 def shelf(x: float, z: float) -> list[Island]:
     """Open to both sides, its boards between two uprights."""
     uprights = [box((x + dx, 0.9, z), (0.04, 1.8, 0.3)) for dx in (-0.48, 0.48)]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace .glb and hard/*.glb.
+"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace, door_ajar .glb and hard/*.glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
 metres, y is up, colours are linear.
@@ -12,6 +12,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from door_ajar import CAMERA as DOOR_CAMERA, door_ajar
 from gltf_writer import Camera, Material, Object, write_glb
 from hard import CAMERA as HARD_CAMERA, five_million, hard_scenes
 from models import head, teapot
@@ -158,7 +159,8 @@ def main() -> None:
             ("occluded", ROOM_CAMERA, occluded()),
             ("cornell_box", CORNELL_CAMERA, cornell_box()),
             ("many_lights", HOUSE_CAMERA, many_lights()),
-            ("furnace", FURNACE_CAMERA, furnace())):
+            ("furnace", FURNACE_CAMERA, furnace()),
+            ("door_ajar", DOOR_CAMERA, door_ajar())):
         write(out / f"{name}.glb", camera, objects)
     for name, (camera, objects, above) in hard_scenes().items():
         write(out / "hard" / f"{name}.glb", camera, objects, above)

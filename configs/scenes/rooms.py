@@ -14,13 +14,14 @@ import numpy as np
 from furniture import cabinet, shelf, table
 from gltf_writer import Camera, Material, Object
 from shapes import Vec, place, rectangle
-from unwrap import Island, Mesh, pack
+from unwrap import Mesh, pack
+from walls import Wall
 
 ROOMS = 8         # along x and along z
 PITCH = 4.0       # metres from room to room
 HEIGHT = 2.6
 THICKNESS = 0.1   # of walls
-DOOR_HALF, DOOR_HEIGHT = 0.5, 2.1
+DOORWAY = (0.5, 2.1)  # half its width, height
 LAMP_HALF, LAMP_Y = 0.1, 2.55
 DIMMEST, RANGE = 108.0, 3.0  # luminance of the dimmest lamp, and the brightest over it
 GOLDEN = 0.6180339887  # its multiples, modulo 1, are evenly spread
@@ -72,40 +73,14 @@ def _room(i: int, j: int) -> list[Object]:
             Object(f"ceiling_{i}_{j}", pack([ceiling]), CEILING), _lamp(i, j)]
 
 
-def _arch(half: float, turned: bool) -> Island:
-    """The face towards +z (turned: -z) of a wall along x, an upside-down U around the doorway."""
-    outline = np.array([(-half, 0), (-DOOR_HALF, 0), (-DOOR_HALF, DOOR_HEIGHT), (DOOR_HALF, DOOR_HEIGHT),
-                        (DOOR_HALF, 0), (half, 0), (half, HEIGHT), (-half, HEIGHT)])
-    triangles = np.array([(0, 1, 2), (0, 2, 7), (7, 2, 3), (7, 3, 6), (3, 5, 6), (3, 4, 5)])
-    side = -1 if turned else 1
-    depth = np.full((len(outline), 1), THICKNESS / 2)
-    positions = np.hstack([outline, depth]) * (side, 1, side)
-    return Island(positions, np.tile((0.0, 0.0, float(side)), (len(outline), 1)), outline, triangles)
-
-
-def _wall(length: float) -> Mesh:
-    """A closed wall along x around the origin, with a doorway in its middle."""
-    half, t = length / 2, THICKNESS / 2
-    pier = (half - DOOR_HALF) / 2  # half the width of the wall beside the doorway
-    return pack([
-        _arch(half, False), _arch(half, True),
-        rectangle((half, HEIGHT / 2, 0), (0, HEIGHT / 2, 0), (0, 0, t)),
-        rectangle((-half, HEIGHT / 2, 0), (0, 0, t), (0, HEIGHT / 2, 0)),
-        rectangle((0, HEIGHT, 0), (0, 0, t), (half, 0, 0)),
-        rectangle((0, DOOR_HEIGHT, 0), (DOOR_HALF, 0, 0), (0, 0, t)),
-        rectangle((-DOOR_HALF, DOOR_HEIGHT / 2, 0), (0, DOOR_HEIGHT / 2, 0), (0, 0, t)),
-        rectangle((DOOR_HALF, DOOR_HEIGHT / 2, 0), (0, 0, t), (0, DOOR_HEIGHT / 2, 0)),
-        rectangle((half - pier, 0, 0), (pier, 0, 0), (0, 0, t)),
-        rectangle((pier - half, 0, 0), (pier, 0, 0), (0, 0, t))])
-
-
 def _moved(mesh: Mesh, turn: float, base: Vec) -> Mesh:
     return Mesh(place(mesh.positions, turn, base), place(mesh.normals, turn, (0, 0, 0)), mesh.uvs, mesh.triangles)
 
 
 def _inner_walls() -> list[Object]:
     """Walls along z are as long as a room is wide; those along x end at their faces."""
-    along_x, along_z = _wall(PITCH - THICKNESS), _wall(PITCH)
+    along_x, along_z = (
+        pack(Wall(length, HEIGHT, THICKNESS, DOORWAY).islands()) for length in (PITCH - THICKNESS, PITCH))
     walls = []
     for line in range(ROOMS - 1):
         for k in range(ROOMS):

@@ -5,6 +5,7 @@ All lengths are metres, y is up, outsides are counter-clockwise.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Sequence
 
 import numpy as np
@@ -76,3 +77,11 @@ def place(points: np.ndarray, turn: float, base: Vec) -> np.ndarray:
     cos, sin = np.cos(turn), np.sin(turn)
     x, y, z = np.moveaxis(points, -1, 0)
     return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=-1) + np.asarray(base, float)
+
+
+def moved(islands: Sequence[Island], turn: float, base: Vec, lean: float = 0.0) -> list[Island]:
+    """The islands leant about their z axis (counter-clockwise seen from +z), turned about y, then moved."""
+    cos, sin = np.cos(lean), np.sin(lean)
+    leant = np.array([(cos, sin, 0), (-sin, cos, 0), (0, 0, 1)])
+    return [replace(i, positions=place(i.positions @ leant, turn, base), normals=place(i.normals @ leant, turn, (0, 0, 0)))
+            for i in islands]
