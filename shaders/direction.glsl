@@ -13,6 +13,9 @@ struct Event {
 #ifdef HAS_TABLE
   Cell cell;
 #endif
+#if SAMPLER == SAMPLER_RL
+  float bsdf_share;  // of the directions drawn here
+#endif
 };
 
 int cell_of(Event e) {
@@ -26,14 +29,24 @@ int cell_of(Event e) {
 struct DirectionSample {
   vec3 direction;
   float pdf;   // of the whole mixture, per solid angle
+  float bsdf;  // density of the BSDF's own sampler
   uint entry;  // of the Q-table, NO_ENTRY where there is none
+  uint share;  // entry of the Q-table for the side of the mixture that drew it, NO_ENTRY where that is not learned
 };
 
 #if SAMPLER == SAMPLER_RL
 
 // One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where the hit has no cell.
 float mixture_pdf(Event e, float bsdf, float table) {
-  return e.cell.index == NO_CELL ? bsdf : mix(table, bsdf, parameters.rl.x);
+  return e.cell.index == NO_CELL ? bsdf : mix(table, bsdf, e.bsdf_share);
+}
+
+float bsdf_share_of(Cell cell) {
+#ifdef LEARNS_MIXTURE
+  return cell.index == NO_CELL ? 1.0 : fetch_one(bsdf_shares, cell.index);
+#else
+  return parameters.rl.x;
+#endif
 }
 
 float direction_pdf(Event e, vec3 wi) {
@@ -52,7 +65,8 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   Choice choice = choose_bin(cell, bits.w);
   uint bin = choice.column;
   float table = bin_pdf(choice.probability);
-  if (has_cell && to_unit(bits.x) >= parameters.rl.x) {
+  bool by_table = has_cell && to_unit(bits.x) >= e.bsdf_share;
+  if (by_table) {
     result.direction = to_world(direction_in_bin(bin, u), e.cell.tangent, e.surface.normal);
   } else {
     result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
@@ -61,8 +75,13 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
     table = table_pdf(cell, bin);
 #endif
   }
-  result.pdf = mixture_pdf(e, bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction), table);
+  result.bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction);
+  result.pdf = mixture_pdf(e, result.bsdf, table);
   result.entry = has_cell ? first_bin(cell) + bin : NO_ENTRY;
+  result.share = NO_ENTRY;
+#ifdef LEARNS_MIXTURE
+  if (has_cell) result.share = first_share(cell) + (by_table ? SHARE_TABLE : SHARE_BSDF);
+#endif
   return result;
 }
 
@@ -77,7 +96,7 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
   float phi = 2.0 * PI * to_unit(bits.z);
   vec3 local = vec3(sine * cos(phi), sine * sin(phi), cosine);
-  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, NO_ENTRY);
+  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, 0.0, NO_ENTRY, NO_ENTRY);
 }
 
 #else
@@ -88,7 +107,7 @@ float direction_pdf(Event e, vec3 wi) {
 
 DirectionSample sample_direction(Event e, uvec4 bits) {
   vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
-  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), NO_ENTRY);
+  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), 0.0, NO_ENTRY, NO_ENTRY);
 }
 
 #endif

@@ -74,11 +74,25 @@ void initialize_lights(uint cell) {
 
 #endif
 
+#ifdef LEARNS_MIXTURE
+
+void initialize_mixture(uint cell) {
+  for (uint side = SHARE_BSDF; side <= SHARE_TABLE; ++side) {
+    q_values[first_share(cell) + side] = 0.0;
+    q_visits[first_share(cell) + side] = 0u;
+  }
+}
+
+#endif
+
 void main() {
   uint cell = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
   if (cell >= parameters.path.w) return;
 #if SAMPLER == SAMPLER_RL
   initialize_bins(cell);
+#endif
+#ifdef LEARNS_MIXTURE
+  initialize_mixture(cell);
 #endif
 #if LIGHT_COLUMNS > 0
   initialize_lights(cell);

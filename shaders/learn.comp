@@ -13,6 +13,7 @@ layout(std430, binding = BINDING_Q_VALUES) restrict buffer QValueBuffer { float 
 layout(std430, binding = BINDING_Q_VISITS) restrict buffer QVisitBuffer { uint q_visits[]; };
 layout(std430, binding = BINDING_TARGET_SUMS) restrict buffer TargetSumBuffer { TargetSum target_sums[]; };
 layout(std430, binding = BINDING_COLUMN_STARTS) restrict writeonly buffer ColumnStartBuffer { uint column_starts[]; };
+layout(std430, binding = BINDING_BSDF_SHARES) restrict writeonly buffer BsdfShareBuffer { float bsdf_shares[]; };
 layout(std430, binding = BINDING_NEXT_VALUES) restrict writeonly buffer NextValueBuffer { float next_values[]; };
 
 // Targets that ran over in the counts of the low word, and of the middle one.
@@ -88,6 +89,75 @@ const float FLOOR_RANGE = 4294966784.0;  // 2^32 - 512: float rounding cannot re
 
 #if SAMPLER == SAMPLER_RL
 
+// What is drawn in proportion to: the values, shrunk, times the mean cosine where it is wanted.
+float bin_weight(float value, uint bin) {
+  return BIN_WEIGHT == BIN_WEIGHT_VALUE_COSINE ? value * bin_cosine(bin) : value;
+}
+
+#ifdef SHRINKS
+
+// Blocks of bins, a quarter of the square's side wide and high.
+const uint BLOCKS = 16u;
+
+uint block_of(uint bin) {
+  uvec2 place = uvec2(bin / uint(BINS_PHI), bin % uint(BINS_PHI)) * 4u / uvec2(BINS_THETA, BINS_PHI);
+  return place.x * 4u + place.y;
+}
+
+// Empirical Bayes (Efron & Morris 1973): a bin with few visits is pulled towards the mean of its block, and a block
+// towards the mean of its cell. Means over bins count each by how far it stands on its own, so that a bin that is
+// visited often because it is bright does not stand for its neighbours.
+float block_means[BLOCKS];
+
+void find_block_means(uint first) {
+  float sums[BLOCKS], weights[BLOCKS], visits[BLOCKS];
+  uint i = 0u;
+  do {
+    sums[i] = weights[i] = visits[i] = 0.0;
+    ++i;
+  } while (i < BLOCKS);
+  i = 0u;
+  do {
+    float n = float(q_visits[first + i]);
+    float weight = n / (n + parameters.shaping.x);
+    uint block = block_of(i);
+    sums[block] += weight * q_values[first + i];
+    weights[block] += weight;
+    visits[block] += n;
+    ++i;
+  } while (i < uint(BINS));
+  float sum = 0.0;
+  float weight = 0.0;
+  i = 0u;
+  do {
+    sum += sums[i];
+    weight += weights[i];
+    ++i;
+  } while (i < BLOCKS);
+  float mean = weight > 0.0 ? sum / weight : 0.0;
+  i = 0u;
+  do {
+    float own = weights[i] > 0.0 ? sums[i] / weights[i] : 0.0;
+    block_means[i] = mix(mean, own, visits[i] / (visits[i] + parameters.shaping.x));
+    ++i;
+  } while (i < BLOCKS);
+}
+
+float shrunk(uint first, uint bin) {
+  float n = float(q_visits[first + bin]);
+  return mix(block_means[block_of(bin)], q_values[first + bin], n / (n + parameters.shaping.x));
+}
+
+#else
+
+void find_block_means(uint first) {}
+
+float shrunk(uint first, uint bin) {
+  return q_values[first + bin];
+}
+
+#endif
+
 void prepare_bins(uint first, float total) {
   float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.y : 1.0;
   uint floor_width = uint(floor_share * (FLOOR_RANGE / float(BINS)));
@@ -97,7 +167,7 @@ void prepare_bins(uint first, float total) {
   do {
     float fraction = floor_share < 1.0 ? min(sum / total, 1.0) : 0.0;
     column_starts[first + bin] = bin * floor_width + uint(max(rest, 0.0) * fraction);
-    sum += q_values[first + bin];
+    sum += bin_weight(shrunk(first, bin), bin);
     ++bin;
   } while (bin < uint(BINS));
   loop_was_cut = loop_was_cut || bin < uint(BINS);
@@ -112,8 +182,14 @@ void learn_bins(uint cell) {
   uint bin = 0u;
   do {
     apply_targets(first + bin, columns, TARGET_UNIT);
-    float value = q_values[first + bin];
-    total += value;
+    ++bin;
+  } while (bin < uint(BINS));
+  loop_was_cut = loop_was_cut || bin < uint(BINS);
+  find_block_means(first);
+  bin = 0u;
+  do {
+    float value = shrunk(first, bin);
+    total += bin_weight(value, bin);
     irradiance += value * bin_cosine(bin) * BIN_SOLID_ANGLE;
     best = max(best, value);
     ++bin;
@@ -125,6 +201,41 @@ void learn_bins(uint cell) {
 #else
   next_values[cell] = irradiance / PI;
 #endif
+}
+
+#endif
+
+#ifdef LEARNS_MIXTURE
+
+// Share of the BSDF. If A and B are the sums of the squares of what directions of the BSDF and of the table brought,
+// A / (A + B) is a step of expectation maximisation towards the mixture with the least second moment: at a minimum, the
+// derivative of the second moment, the integral of (f / p)^2 (p_bsdf - p_table), is zero, and then A / (A + B) is the share
+// itself. Later frames count for more, in proportion to their number, since the table that they used was better.
+const float LEAST_SHARE = 0.1;
+const float PRIOR_VISITS = 32.0;  // that count for bsdf_fraction
+
+void learn_mixture(uint cell) {
+  uint first = first_share(cell);
+  TargetSum by_bsdf = target_sums[first + SHARE_BSDF];
+  TargetSum by_table = target_sums[first + SHARE_TABLE];
+  float targets = float(targets_of(by_bsdf)) + float(targets_of(by_table));
+  float visits = float(q_visits[first + SHARE_BSDF]) + float(q_visits[first + SHARE_TABLE]);
+  if (targets > 0.0) {
+    float gain = min(2.0 * targets / (visits + 2.0 * targets), 1.0);
+    float scale = LIGHT_TARGET_UNIT / targets;
+    q_values[first + SHARE_BSDF] = mix(q_values[first + SHARE_BSDF], units_of(by_bsdf) * scale, gain);
+    q_values[first + SHARE_TABLE] = mix(q_values[first + SHARE_TABLE], units_of(by_table) * scale, gain);
+    q_visits[first + SHARE_BSDF] += targets_of(by_bsdf);
+    q_visits[first + SHARE_TABLE] += targets_of(by_table);
+    target_sums[first + SHARE_BSDF] = TargetSum(0u, 0u, 0u);
+    target_sums[first + SHARE_TABLE] = TargetSum(0u, 0u, 0u);
+    visits += targets;
+  }
+  float a = q_values[first + SHARE_BSDF];
+  float b = q_values[first + SHARE_TABLE];
+  float share = a + b > 0.0 ? a / (a + b) : parameters.rl.x;
+  share = (share * visits + parameters.rl.x * PRIOR_VISITS) / (visits + PRIOR_VISITS);
+  bsdf_shares[cell] = clamp(share, LEAST_SHARE, 1.0 - LEAST_SHARE);
 }
 
 #endif
@@ -175,6 +286,9 @@ void main() {
   uint cell = touched[place];
 #if SAMPLER == SAMPLER_RL
   learn_bins(cell);
+#endif
+#ifdef LEARNS_MIXTURE
+  learn_mixture(cell);
 #endif
 #if LIGHT_COLUMNS > 0
   learn_lights(cell);

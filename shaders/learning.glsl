@@ -14,6 +14,7 @@
 struct Departure {
   DirectionSample direction;
   vec3 weight;  // f_r cos(theta) / pdf; zero where nothing is reflected that way
+  vec3 roulette;  // the factor of what Russian roulette goes by
 };
 
 Departure depart(Event e, RandomKey key, uint bounce) {
@@ -21,6 +22,10 @@ Departure depart(Event e, RandomKey key, uint bounce) {
   next.direction = sample_direction(e, random_bits(key, bounce * BLOCKS_PER_EVENT + BLOCK_DIRECTION));
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, next.direction.direction);
   next.weight = reflected == vec3(0.0) ? vec3(0.0) : reflected / next.direction.pdf;
+  next.roulette = next.weight;
+#if SAMPLER == SAMPLER_RL && ROULETTE == ROULETTE_REFLECTANCE
+  if (next.direction.bsdf > 0.0) next.roulette = reflected / next.direction.bsdf;
+#endif
   return next;
 }
 
@@ -28,20 +33,44 @@ Departure depart(Event e, RandomKey key, uint bounce) {
 
 void learn(inout Tally tally, uint entry, float target) {
   // A target that is not finite belongs to a sample that is reported.
-  if (entry != NO_ENTRY && is_finite(target)) {
+  if (frame_teaches != 0u && entry != NO_ENTRY && is_finite(target)) {
     ++tally.updates;
     if (gather_target(entry, target)) ++tally.saturated;
   }
 }
 
+// The square of what a direction brought, for the side of the mixture that drew it: see learn_mixture in learn.comp.
+void learn_share(inout Tally tally, uint entry, float contribution) {
+#ifdef LEARNS_MIXTURE
+  float part = contribution * parameters.environment.w;
+  if (frame_teaches != 0u && entry != NO_ENTRY && is_finite(part)) {
+    ++tally.updates;
+#ifdef MIX1
+    if (gather_light_target(entry, part)) ++tally.saturated;
+#else
+    if (gather_light_target(entry, part * part)) ++tally.saturated;
+#endif
+  }
+#endif
+}
+
+#endif
+
+// Whether a rule learns at the last hit, where the path ends, from what the table holds there.
+#if SAMPLER == SAMPLER_RL && UPDATE_RULE != UPDATE_MONTE_CARLO && LEARNS == LEARNS_ALL
+const bool ENDS_TEACH = true;
+#else
+const bool ENDS_TEACH = false;
 #endif
 
 #if SAMPLER != SAMPLER_RL
 
 void learn_leaving(inout Path path, uint bounce, vec3 radiance, float weight) {}
-void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, RandomKey key) {}
-void learn_scattering(uint bounce, vec3 direct, Departure next) {}
+void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, bool scatters,
+                    RandomKey key) {}
+void learn_scattering(inout Path path, uint bounce, vec3 direct, Departure next) {}
 void learn_survival(uint bounce, float survival) {}
+void learn_lesson(inout Path path, Taught taught) {}
 void learn_path(inout Path path) {}
 
 #elif UPDATE_RULE == UPDATE_MONTE_CARLO
@@ -50,8 +79,9 @@ void learn_path(inout Path path) {}
 
 #else
 
+// `weight`: share of met emission that next event estimation leaves to the path.
 void learn_leaving(inout Path path, uint bounce, vec3 radiance, float weight) {
-  learn(path.tally, path.entry, average(radiance));
+  path.lesson = average(radiance) * (LEARNS == LEARNS_BEYOND_NEE ? weight : 1.0);
 }
 
 // The promise of the table at y.
@@ -65,17 +95,30 @@ float promise(Path path, Event e, Departure next, uint bounce, RandomKey key) {
 #endif
 }
 
-void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, RandomKey key) {
+void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, bool scatters,
+                    RandomKey key) {
+  vec3 met = emitted * (LEARNS == LEARNS_BEYOND_NEE ? weight : 1.0);
+  float promised = frame_teaches != 0u && (scatters || ENDS_TEACH) ? promise(path, e, next, bounce, key) : 0.0;
 #if UPDATE_RULE == UPDATE_PAPER_LISTING
-  bool emits = emitted != vec3(0.0);
-  learn(path.tally, path.entry, emits ? min(length(emitted), 1.0) : promise(path, e, next, bounce, key));
+  path.lesson = met != vec3(0.0) ? min(length(met), 1.0) : promised;
 #else
-  learn(path.tally, path.entry, average(emitted) + promise(path, e, next, bounce, key));
+  path.lesson = average(met) + promised;
 #endif
 }
 
-void learn_scattering(uint bounce, vec3 direct, Departure next) {}
+void learn_scattering(inout Path path, uint bounce, vec3 direct, Departure next) {
+#if LEARNS == LEARNS_BEYOND_NEE
+  path.lesson += average(direct);
+#endif
+}
+
 void learn_survival(uint bounce, float survival) {}
+
+void learn_lesson(inout Path path, Taught taught) {
+  learn(path.tally, taught.entry, path.lesson);
+  learn_share(path.tally, taught.share, taught.weight * path.lesson);
+}
+
 void learn_path(inout Path path) {}
 
 #endif

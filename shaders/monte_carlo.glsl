@@ -24,11 +24,12 @@ void learn_leaving(inout Path path, uint bounce, vec3 radiance, float weight) {
   learn_arrival(bounce, radiance, weight);
 }
 
-void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, RandomKey key) {
+void learn_arriving(inout Path path, Event e, Departure next, uint bounce, vec3 emitted, float weight, bool scatters,
+                    RandomKey key) {
   learn_arrival(bounce, emitted, weight);
 }
 
-void learn_scattering(uint bounce, vec3 direct, Departure next) {
+void learn_scattering(inout Path path, uint bounce, vec3 direct, Departure next) {
   lessons[bounce].entry = next.direction.entry;
   lessons[bounce].direct = direct;
   lessons[bounce].weight = next.weight;
@@ -38,6 +39,8 @@ void learn_scattering(uint bounce, vec3 direct, Departure next) {
 void learn_survival(uint bounce, float survival) {
   lessons[bounce].weight /= survival;
 }
+
+void learn_lesson(inout Path path, Taught taught) {}
 
 // Backwards along the path: `beyond` is the radiance that leaves an event towards the one before, without the
 // event's own emission.
@@ -49,7 +52,7 @@ void learn_path(inout Path path) {
     if (more) {
       --left;
       Lesson lesson = lessons[left];
-      learn(path.tally, lesson.entry, average(lesson.emission + beyond));
+      learn(path.tally, lesson.entry, average(lesson.emission * (LEARNS == LEARNS_BEYOND_NEE ? lesson.share : 1.0) + beyond));
       beyond = lesson.direct + lesson.weight * (lesson.share * lesson.emission + beyond);
       more = left > 0u;
     }

@@ -26,7 +26,7 @@ float power_heuristic(float pdf, float other) {
 void learn_light(Event e, LightSample light, vec3 contribution, inout Tally tally) {
 #if LIGHT_COLUMNS > 0
   float part = average(contribution) * light.probability * parameters.environment.w;
-  if (e.cell.index != NO_CELL && is_finite(part)) {
+  if (frame_teaches != 0u && e.cell.index != NO_CELL && is_finite(part)) {
     ++tally.updates;
     uint entry = first_light(uint(e.cell.index)) + light.light;
     if (gather_light_target(entry, part * part)) ++tally.saturated;

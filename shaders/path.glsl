@@ -6,11 +6,22 @@ struct Path {
   vec3 origin;
   vec3 direction;
   vec3 throughput;
+  vec3 roulette;  // what Russian roulette goes by
   vec3 radiance;
   float pdf;   // of `direction`, per solid angle
   int cell;    // of the surface that it left, NO_CELL where it has none
   uint entry;  // of the Q-table that chose `direction`
+  float lesson;  // for that entry, what its ray has found so far; negative: nothing to learn
+  uint share;    // of the Q-table, for the side of the mixture that drew `direction`
+  float weight;  // that the ray's finds have for what it left, averaged over the channels
   Tally tally;
+};
+
+// Of the table, what a ray teaches.
+struct Taught {
+  uint entry;
+  uint share;
+  float weight;
 };
 
 #include "learning.glsl"
@@ -26,12 +37,12 @@ void leave_scene(inout Path path, uint bounce) {
 }
 
 // Emission at the hit, and the lesson of the ray that led here.
-void arrive(inout Path path, Event e, Departure next, float t, uint bounce, RandomKey key) {
+void arrive(inout Path path, Event e, Departure next, float t, uint bounce, bool scatters, RandomKey key) {
   vec3 emitted = emitted_radiance(e.surface);
   float weight =
       bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * emitted * weight;
-  learn_arriving(path, e, next, bounce, emitted, weight, key);
+  learn_arriving(path, e, next, bounce, emitted, weight, scatters, key);
 }
 
 // Survival probability of Russian roulette: at most 0.95, as in the report, so that paths end also where
@@ -43,18 +54,22 @@ bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey ke
   uint block = bounce * BLOCKS_PER_EVENT;
   vec3 direct = direct_light(e, key, block, path.tally);
   path.radiance += path.throughput * direct;
-  learn_scattering(bounce, direct, next);
+  learn_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
   path.throughput *= next.weight;
+  path.roulette *= next.roulette;
   path.origin = ray_origin(e.surface, next.direction.direction);
   path.direction = next.direction.direction;
   path.pdf = next.direction.pdf;
   path.entry = next.direction.entry;
+  path.share = next.direction.share;
+  path.weight = average(next.weight);
   path.cell = cell_of(e);
   if (bounce + 1u > parameters.path.y) {
-    float survival = min(max_component(path.throughput), MAX_SURVIVAL);
+    float survival = min(max_component(path.roulette), MAX_SURVIVAL);
     if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
     path.throughput /= survival;
+    path.roulette /= survival;
     learn_survival(bounce, survival);
   }
   return true;
@@ -65,12 +80,20 @@ Event event_at(inout Path path, Hit hit) {
   e.surface = surface_at(hit, path.direction);
   e.bsdf = bsdf_of(e.surface.material);
   e.wo = -path.direction;
+  return e;
+}
+
+// The event's cell, and where the path goes from there.
+Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key) {
 #ifdef HAS_TABLE
   e.cell = find_cell(e.surface);
   ++path.tally.lookups;
   if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
 #endif
-  return e;
+#if SAMPLER == SAMPLER_RL
+  e.bsdf_share = bsdf_share_of(e.cell);
+#endif
+  return depart(e, key, bounce);
 }
 
 Path trace(RandomKey key, vec3 origin, vec3 direction) {
@@ -78,10 +101,14 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
   path.origin = origin;
   path.direction = direction;
   path.throughput = vec3(1.0);
+  path.roulette = vec3(1.0);
   path.radiance = vec3(0.0);
   path.pdf = 0.0;
   path.cell = NO_CELL;
   path.entry = NO_ENTRY;
+  path.share = NO_ENTRY;
+  path.weight = 0.0;
+  path.lesson = -1.0;
   path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
 
   // With two_ray, the last event's light needs no further ray of the path.
@@ -92,17 +119,20 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
     if (going_on) {
       ++path.tally.rays;
       ++path.tally.segments;
+      Taught taught = Taught(path.entry, path.share, path.weight);
       Hit hit = closest_hit(path.origin, path.direction);
       if (hit.triangle == NO_TRIANGLE) {
         leave_scene(path, bounce);
         going_on = false;
       } else {
         Event e = event_at(path, hit);
-        // Drawn also where the path ends: a rule may learn from it.
-        Departure next = depart(e, key, bounce);
-        arrive(path, e, next, hit.t, bounce, key);
-        going_on = bounce < parameters.path.x && scatter(path, e, next, bounce, key) && bounce < last_ray;
+        bool scatters = bounce < parameters.path.x;
+        Departure next;
+        if (scatters || ENDS_TEACH) next = depart_from(path, e, bounce, key);
+        arrive(path, e, next, hit.t, bounce, scatters, key);
+        going_on = scatters && scatter(path, e, next, bounce, key) && bounce < last_ray;
       }
+      learn_lesson(path, taught);
       ++bounce;
     }
   } while (going_on);

@@ -5,6 +5,7 @@
 
 FETCHED_FLOAT(q_values, UNIT_Q_VALUES);
 FETCHED_FLOAT(next_values, UNIT_NEXT_VALUES);
+FETCHED_FLOAT(bsdf_shares, UNIT_BSDF_SHARES);
 
 Choice choose_bin(uint cell, uint word) {
   return choose_column(first_bin(cell), uint(BINS), word);

@@ -10,6 +10,7 @@ FETCHED_VEC4(light_triangles, UNIT_LIGHT_TRIANGLES);
 FETCHED_VEC4(lights, UNIT_LIGHTS);
 layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters parameters; };
 layout(location = LOCATION_FRAME) uniform uint frame_number;
+layout(location = LOCATION_TEACHES) uniform uint frame_teaches;
 
 // Vertex 0, 1 or 2 of a triangle, and what is stored with it.
 vec3 vertex_of(uint triangle, uint vertex) {

@@ -182,6 +182,7 @@ struct Parameters {
   vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value, w: light_prior
   vec4 film;            // x: clamp_radiance, 0 where nothing is clamped
+  vec4 shaping;         // x: shrinkage
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
   vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
@@ -205,9 +206,10 @@ const int BINDING_OUTLIERS = 19;
 const int BINDING_FILTER_GUIDES = 20;
 const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
+const int BINDING_BSDF_SHARES = 23;
 
 // Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit.
-const int BINDING_FETCHED = 24;
+const int BINDING_FETCHED = 25;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;
 const int UNIT_NODES = 2;
@@ -223,8 +225,10 @@ const int UNIT_Q_VALUES = 10;
 const int UNIT_SAMPLES = 11;
 const int UNIT_OUTLIERS = 12;
 const int UNIT_SUMS = 13;
+const int UNIT_BSDF_SHARES = 14;
 
-const int LOCATION_FRAME = 0;  // uniform: number of the frame, from 1
+const int LOCATION_FRAME = 0;    // uniform: number of the frame, from 1
+const int LOCATION_TEACHES = 1;  // uniform: whether the frame gathers targets for the table
 
 // Rays leave a surface by this fraction of its largest coordinate: 32 units in the last place of a float,
 // above the rounding of interpolating a point and of the intersection test, which both grow with the
@@ -237,6 +241,8 @@ const uint NO_LIGHT = 0xffffffffu;
 const int NO_CELL = -1;             // of a hit
 const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
+const uint SHARE_BSDF = 0u;  // columns of the mixture
+const uint SHARE_TABLE = 1u;
 const uint LEAF_BITS = 4u;
 const uint LEAF_LINK = 0x80000000u;
 const uint END_OF_WALK = 0xffffffffu;

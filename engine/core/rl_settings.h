@@ -8,17 +8,25 @@
 namespace qtrace {
 
 enum class UpdateRule { expected_sarsa, sarsa, q_learning, monte_carlo, paper_listing };
+enum class Learns { all, beyond_nee };
 enum class LearningRate { visits_per_bin, visits_per_cell, constant, power };
 enum class CellKind { voronoi, grid };
 enum class SitePlacement { uv, area };
 enum class SiteSearch { lists, tree, linear };
 enum class BinMap { cylindrical, concentric };
 enum class InitialTable { zero, constant, random, cosine };
+enum class BinWeight { value, value_cosine };
+enum class Mixture { fixed, learned };
+enum class Roulette { throughput, reflectance };
 
 template <>
 struct EnumNames<UpdateRule> {
   static constexpr std::array<std::string_view, 5> values{"expected_sarsa", "sarsa", "q_learning",
                                                           "monte_carlo", "paper_listing"};
+};
+template <>
+struct EnumNames<Learns> {
+  static constexpr std::array<std::string_view, 2> values{"all", "beyond_nee"};
 };
 template <>
 struct EnumNames<LearningRate> {
@@ -46,8 +54,22 @@ struct EnumNames<InitialTable> {
   static constexpr std::array<std::string_view, 4> values{"zero", "constant", "random", "cosine"};
 };
 
+template <>
+struct EnumNames<BinWeight> {
+  static constexpr std::array<std::string_view, 2> values{"value", "value_cosine"};
+};
+template <>
+struct EnumNames<Mixture> {
+  static constexpr std::array<std::string_view, 2> values{"fixed", "learned"};
+};
+template <>
+struct EnumNames<Roulette> {
+  static constexpr std::array<std::string_view, 2> values{"throughput", "reflectance"};
+};
+
 struct RlSettings {
   UpdateRule update = UpdateRule::expected_sarsa;
+  Learns learns = Learns::all;
   LearningRate learning_rate = LearningRate::visits_per_bin;
   double rate_constant = 0.05;
   double rate_exponent = 0.7;
@@ -63,8 +85,14 @@ struct RlSettings {
   int bins_phi = 10;
   InitialTable initial_table = InitialTable::zero;
   double initial_value = 1;
+  BinWeight bin_weight = BinWeight::value;
+  double shrinkage = 0;
+  Mixture mixture = Mixture::fixed;
   double bsdf_fraction = 0.5;
   double bin_floor = 0.1;
+  int teach_frames = 0;
+  double update_growth = 0;
+  Roulette roulette = Roulette::throughput;
 
   bool operator==(const RlSettings&) const = default;
 };
@@ -72,6 +100,10 @@ struct RlSettings {
 template <class Visitor>
 void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"update", "", "target of the temporal-difference update"}, rl.update);
+  visit(KnobInfo{"learns", "",
+                 "what a value holds: all radiance that arrives, or what of it next event estimation leaves to "
+                 "the path's own rays"},
+        rl.learns);
   visit(
       KnobInfo{
           "learning_rate", "",
@@ -121,6 +153,18 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
         rl.initial_table);
   visit(KnobInfo{"initial_value", "radiance", "scale of an initial table other than zero", 1e-6, 1e6},
         rl.initial_value);
+  visit(KnobInfo{"bin_weight", "",
+                 "what a bin is drawn in proportion to: its value, or that times the bin's mean cosine"},
+        rl.bin_weight);
+  visit(KnobInfo{"shrinkage", "samples",
+                 "how many samples the mean of a bin's block counts for beside the bin's own, and the cell's "
+                 "mean beside the block's; 0: a bin's value is its own",
+                 0, 1e6},
+        rl.shrinkage);
+  visit(KnobInfo{"mixture", "",
+                 "share of directions drawn from the BSDF: bsdf_fraction everywhere, or learned in every cell, "
+                 "starting from that"},
+        rl.mixture);
   visit(KnobInfo{"bsdf_fraction", "probability",
                  "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
         rl.bsdf_fraction);
@@ -128,6 +172,20 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",
                  0.001, 1},
         rl.bin_floor);
+  visit(KnobInfo{"teach_frames", "frames",
+                 "so many frames teach the table all that they find, of later ones only the share teach_frames / "
+                 "frame; 0: all frames",
+                 0, 1e6},
+        rl.teach_frames);
+  visit(KnobInfo{"update_growth", "",
+                 "the table is updated when the frames since its last update are this share of those before it (at "
+                 "most 32 frames); 0: after every frame",
+                 0, 1},
+        rl.update_growth);
+  visit(KnobInfo{"roulette", "",
+                 "what Russian roulette goes by: the path's throughput, or what that would be had the BSDF drawn the "
+                 "same directions; the first ends paths where the table sent many, since each then counts for less"},
+        rl.roulette);
 }
 
 }  // namespace qtrace

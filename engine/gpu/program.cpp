@@ -80,6 +80,7 @@ Program& Program::operator=(Program&& other) noexcept {
 }
 
 void Program::set_frame(std::uint32_t frame) { glProgramUniform1ui(id_, LOCATION_FRAME, frame); }
+void Program::set_teaches(bool teaches) { glProgramUniform1ui(id_, LOCATION_TEACHES, teaches ? 1U : 0U); }
 
 void Program::dispatch(std::uint32_t x, std::uint32_t y) const {
   glUseProgram(id_);

@@ -23,6 +23,7 @@ class Program {
 
   std::uint32_t id() const { return id_; }
   void set_frame(std::uint32_t frame);
+  void set_teaches(bool teaches);
   // Work groups; earlier writes to storage buffers are seen.
   void dispatch(std::uint32_t x, std::uint32_t y = 1) const;
   // As many work groups as the buffer's first three words say when the device gets there.

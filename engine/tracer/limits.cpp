@@ -6,6 +6,7 @@
 #include "engine/gpu/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
+#include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 
@@ -63,7 +64,8 @@ constexpr std::uint32_t kMostTargets =
 
 void check_targets(const RenderSettings& settings, std::size_t pixels) {
   // A direction and a light at each event.
-  const double most = 2 * static_cast<double>(pixels) * (settings.max_bounces + 1.0);
+  const double frames = settings.rl.update_growth > 0 ? kMostFramesPerUpdate : 1;
+  const double most = 2 * frames * static_cast<double>(pixels) * (settings.max_bounces + 1.0);
   check(most < kMostTargets,
         "{}x{} pixels with max_bounces {} may teach one entry of the table {:.0f} times in a frame, and up "
         "to {} "

@@ -38,6 +38,8 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
               gpu::also_fetched(gpu::Texels::uint1)),
       next_values_("Q next values (cells)", cells_.count() * sizeof(float),
                    gpu::also_fetched(gpu::Texels::float1)),
+      bsdf_shares_("shares of the BSDF (cells)", cells_.count() * sizeof(float),
+                   gpu::also_fetched(gpu::Texels::float1)),
       touched_("touched cells", sizeof(gpu::TouchedHead) + cells_.count() * sizeof(std::uint32_t)),
       places_("places of cells", pack_places(cells_.states())),
       initialize_(programs.get("initial_table.comp", defines)),
@@ -54,6 +56,8 @@ void QTable::bind() const {
   starts_.bind_fetched(gpu::UNIT_COLUMN_STARTS);
   next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
   next_values_.bind_fetched(gpu::UNIT_NEXT_VALUES);
+  bsdf_shares_.bind_storage(gpu::BINDING_BSDF_SHARES);
+  bsdf_shares_.bind_fetched(gpu::UNIT_BSDF_SHARES);
   touched_.bind_storage(gpu::BINDING_TOUCHED_CELLS);
 }
 
@@ -92,11 +96,11 @@ void QTable::forget_touched() {
   touched_.write(0, &head, sizeof(head));
 }
 
-std::vector<gpu::Buffer*> QTable::learned() { return {&values_, &visits_, &starts_, &next_values_}; }
+std::vector<gpu::Buffer*> QTable::learned() { return {&values_, &visits_, &sums_, &starts_, &next_values_, &bsdf_shares_}; }
 
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() + starts_.bytes() +
-         next_values_.bytes() + touched_.bytes() + places_.bytes();
+         next_values_.bytes() + bsdf_shares_.bytes() + touched_.bytes() + places_.bytes();
 }
 
 std::vector<float> QTable::values() const { return values_.read_all<float>(); }

@@ -24,8 +24,6 @@ class QTable {
   // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be
   // bound.
   void learn();
-  // Drops them instead.
-  void discard();
   // As at the start: initial values, nothing visited. Parameters must be bound.
   void reset();
 
@@ -47,6 +45,7 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
+  void discard();      // what was gathered
   void apply();        // to the cells that are listed
   void prepare_all();  // as if every cell had been taught something
   void forget_touched();
@@ -59,6 +58,7 @@ class QTable {
   gpu::Buffer sums_;  // and marks of the cells that have any
   gpu::Buffer starts_;
   gpu::Buffer next_values_;
+  gpu::Buffer bsdf_shares_;
   gpu::Buffer touched_;
   gpu::Buffer places_;
   std::shared_ptr<gpu::Program> initialize_;

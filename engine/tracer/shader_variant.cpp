@@ -23,7 +23,12 @@ void define_table(gpu::Defines& defines, const RenderSettings& settings, const g
   defines["BINS_THETA"] = number(settings.rl.bins_theta);
   defines["BINS_PHI"] = number(settings.rl.bins_phi);
   defines["UPDATE_RULE"] = number(settings.rl.update);
-  if (settings.rl.bsdf_fraction > 0) defines["MIXES_BSDF"] = "1";
+  defines["LEARNS"] = number(settings.rl.learns);
+  defines["ROULETTE"] = number(settings.rl.roulette);
+  defines["BIN_WEIGHT"] = number(settings.rl.bin_weight);
+  if (settings.rl.shrinkage > 0) defines["SHRINKS"] = "1";
+  if (settings.rl.mixture == Mixture::learned) defines["LEARNS_MIXTURE"] = "1";
+  if (settings.rl.bsdf_fraction > 0 || settings.rl.mixture == Mixture::learned) defines["MIXES_BSDF"] = "1";
   defines["MAX_LESSONS"] = number(std::max(settings.max_bounces, 1));
 }
 
@@ -35,8 +40,10 @@ RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatu
 }
 
 std::size_t table_columns(const RenderSettings& settings, const gpu::SceneFeatures& features) {
-  const int bins = settings.sampler == Sampler::rl ? settings.rl.bins_theta * settings.rl.bins_phi : 0;
-  return static_cast<std::size_t>(bins) + (learns_lights(settings) ? features.lights : 0);
+  const bool learns_directions = settings.sampler == Sampler::rl;
+  const int bins = learns_directions ? settings.rl.bins_theta * settings.rl.bins_phi : 0;
+  const std::size_t sides = learns_directions && settings.rl.mixture == Mixture::learned ? 2 : 0;
+  return static_cast<std::size_t>(bins) + (learns_lights(settings) ? features.lights : 0) + sides;
 }
 
 gpu::Defines with_cells(gpu::Defines defines, const CellBuffers& cells) {

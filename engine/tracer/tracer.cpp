@@ -4,6 +4,7 @@
 #include "engine/gpu/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
+#include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
@@ -31,6 +32,7 @@ struct Tracer::State {
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height, context.programs()),
+        schedule(settings.rl),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
@@ -71,6 +73,7 @@ struct Tracer::State {
     bind();
     if (table) table->reset();
     trace->set_frame(0);
+    trace->set_teaches(true);
     trace->dispatch(1);
     film.accumulate(0);
     context.finish();
@@ -84,6 +87,7 @@ struct Tracer::State {
   gpu::SceneBuffers buffers;
   RenderSettings settings;  // as they take effect
   Film film;
+  LearningSchedule schedule;
   gpu::Buffer parameter_block;
   std::shared_ptr<gpu::Program> trace;
   std::optional<QTable> table;
@@ -115,14 +119,11 @@ void Tracer::render_frame() {
   s.bind();
   s.film.start_frame();
   s.trace->set_frame(s.frames);
+  s.trace->set_teaches(s.learning && s.schedule.teaches(s.frames));
   const auto [x, y] = s.groups();
   s.trace->dispatch(x, y);
   s.film.accumulate(s.frames);
-  if (!s.table) return;
-  if (s.learning)
-    s.table->learn();
-  else
-    s.table->discard();
+  if (s.table && s.learning && s.schedule.updates(s.frames)) s.table->learn();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
