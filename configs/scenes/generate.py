@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace, door_ajar .glb and hard/*.glb.
+"""Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace, door_ajar,
+glossy_room, open_sky .glb and hard/*.glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
 metres, y is up, colours are linear.
@@ -14,8 +15,10 @@ from typing import Any
 
 from door_ajar import CAMERA as DOOR_CAMERA, door_ajar
 from gltf_writer import Camera, Material, Object, write_glb
+from glossy_room import CAMERA as GLOSSY_CAMERA, glossy_room
 from hard import CAMERA as HARD_CAMERA, five_million, hard_scenes
 from models import head, teapot
+from open_sky import CAMERA as SKY_CAMERA, open_sky
 from rooms import CAMERA as HOUSE_CAMERA, many_lights
 from shapes import Vec, box, rectangle
 from unwrap import Island, Mesh, pack
@@ -160,7 +163,9 @@ def main() -> None:
             ("cornell_box", CORNELL_CAMERA, cornell_box()),
             ("many_lights", HOUSE_CAMERA, many_lights()),
             ("furnace", FURNACE_CAMERA, furnace()),
-            ("door_ajar", DOOR_CAMERA, door_ajar())):
+            ("door_ajar", DOOR_CAMERA, door_ajar()),
+            ("glossy_room", GLOSSY_CAMERA, glossy_room()),
+            ("open_sky", SKY_CAMERA, open_sky())):
         write(out / f"{name}.glb", camera, objects)
     for name, (camera, objects, above) in hard_scenes().items():
         write(out / "hard" / f"{name}.glb", camera, objects, above)

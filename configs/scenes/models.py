@@ -1,4 +1,4 @@
-"""The two curved objects: a teapot and a head.
+"""The curved objects: a teapot, a head, a bowl, a lampshade and a ball.
 
 Both are modelled here from control points of our own, so that the scenes carry
 no third-party data. Metres, y up; each model stands on its own origin, the head
@@ -46,7 +46,7 @@ def teapot(turn: float, base: Vec) -> list[Island]:
     spout, handle = _tube(SPOUT, 20), _tube(HANDLE, 20)
     spout = np.concatenate([spout, _lip(spout)])
     surfaces = [
-        (_revolve(BODY, 40), 0.000, 0.296), (_revolve(LID, 40), 0.299, 0.400)]
+        (revolve(BODY, 40), 0.000, 0.296), (revolve(LID, 40), 0.299, 0.400)]
     parts = []
     for rings, low, high in surfaces:
         parts.append(_closed(rings, turn, base, (0, low, 0), (0, high, 0)))
@@ -68,7 +68,7 @@ def _angles(n: int) -> np.ndarray:
     return 2 * np.pi * np.arange(n) / n
 
 
-def _revolve(outline: list[tuple[float, float, int]], n: int) -> np.ndarray:
+def revolve(outline: list[tuple[float, float, int]], n: int) -> np.ndarray:
     """Rings of n points of a surface of revolution about y."""
     curve = catmull_rom([p[:2] for p in outline], [p[2] for p in outline[:-1]])
     a = _angles(n)
@@ -141,3 +141,29 @@ def head(height: float, turn: float, base: Vec) -> list[Island]:
                    (0, 0, 0), (0, height, -0.02 * height))
     assert 2 * part.n * part.count == HEAD_TRIANGLES
     return part.unwrap(2, 6, pieces=2)
+
+
+# Outlines as (radius, height, samples up to the next point), from pole to pole.
+BOWL = [
+    (0.055, 0.000, 1), (0.068, 0.003, 1), (0.072, 0.010, 1), (0.078, 0.016, 3), (0.130, 0.050, 3), (0.158, 0.105, 1),
+    (0.160, 0.112, 1), (0.157, 0.114, 1), (0.153, 0.110, 3), (0.124, 0.055, 3), (0.074, 0.024, 2), (0.030, 0.018, 0)]
+SHADE = [
+    (0.030, 0.198, 2), (0.075, 0.180, 3), (0.160, 0.090, 3), (0.212, 0.004, 1), (0.215, 0.000, 1), (0.218, 0.004, 3),
+    (0.167, 0.095, 3), (0.082, 0.188, 1), (0.040, 0.206, 0)]
+
+
+def bowl(n: int = 36) -> list[Island]:
+    """0.32 m wide, open to the top, standing on the origin."""
+    return RingSurface((0, 0, 0), revolve(BOWL, n), (0, 0.017, 0)).unwrap(6, 7)
+
+
+def shade(n: int = 32) -> list[Island]:
+    """A bell 0.44 m wide, open to below, whose rim lies around the origin."""
+    return RingSurface((0, 0.2, 0), revolve(SHADE, n), (0, 0.208, 0)).unwrap(9, 8)
+
+
+def ball(radius: float, n: int = 32) -> list[Island]:
+    """Standing on the origin."""
+    polar = np.pi * np.arange(1, n // 2) / (n // 2)
+    outline = [(radius * np.sin(a), radius * (1 - np.cos(a)), 1) for a in polar]
+    return RingSurface((0, 0, 0), revolve(outline, n), (0, 2 * radius, 0)).unwrap(n // 8, n // 8)

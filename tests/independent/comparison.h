@@ -13,9 +13,9 @@
 
 namespace qtrace::independent {
 
-// All that are shipped, and the Cornell box in metal and plastic.
-inline constexpr std::array kScenes{"simple.glb",      "occluded.glb", "cornell_box.glb",
-                                    "many_lights.glb", "furnace.glb",  "glossy"};
+// All shipped ones that have lights, and the Cornell box in metal and plastic.
+inline constexpr std::array kScenes{"simple.glb",  "occluded.glb",  "cornell_box.glb", "many_lights.glb",
+                                    "furnace.glb", "door_ajar.glb", "glossy_room.glb", "glossy"};
 
 // Chance that a true renderer fails one comparison.
 inline constexpr double kQuickChance = 1e-4;
