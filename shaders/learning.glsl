@@ -23,7 +23,7 @@ Departure depart(Event e, RandomKey key, uint bounce) {
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, next.direction.direction);
   next.weight = reflected == vec3(0.0) ? vec3(0.0) : reflected / next.direction.pdf;
   next.roulette = next.weight;
-#if SAMPLER == SAMPLER_RL && ROULETTE == ROULETTE_REFLECTANCE
+#if SAMPLER == SAMPLER_RL && ROULETTE != ROULETTE_THROUGHPUT
   if (next.direction.bsdf > 0.0) next.roulette = reflected / next.direction.bsdf;
 #endif
   return next;

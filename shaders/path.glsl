@@ -7,6 +7,7 @@ struct Path {
   vec3 direction;
   vec3 throughput;
   vec3 roulette;  // what Russian roulette goes by
+  float expected;  // of the path beyond its first event, by the table
   vec3 radiance;
   float pdf;   // of `direction`, per solid angle
   int cell;    // of the surface that it left, NO_CELL where it has none
@@ -49,6 +50,22 @@ void arrive(inout Path path, Event e, Departure next, float t, uint bounce, bool
 // nothing is absorbed.
 const float MAX_SURVIVAL = 0.95;
 
+// Adjoint-driven roulette (Vorba & Krivanek 2016): what the path is still expected to bring, over what it was at its
+// first event. The lower end bounds how far a survivor is scaled up.
+const float LEAST_SURVIVAL = 0.1;
+
+float survival_by_value(inout Path path, Event e, uint bounce) {
+#if SAMPLER == SAMPLER_RL && ROULETTE == ROULETTE_VALUE
+  if (e.cell.index != NO_CELL) {
+    float beyond = reflectance(e.surface, e.bsdf, e.wo) * fetch_one(next_values, e.cell.index);
+    float value = average(path.throughput) * beyond;
+    if (bounce == 0u) path.expected = value;
+    if (path.expected > 0.0) return clamp(parameters.shaping.y * value / path.expected, LEAST_SURVIVAL, 1.0);
+  }
+#endif
+  return -1.0;
+}
+
 // One scattering event. Returns whether the path goes on.
 bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey key) {
   uint block = bounce * BLOCKS_PER_EVENT;
@@ -56,6 +73,7 @@ bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey ke
   path.radiance += path.throughput * direct;
   learn_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
+  float by_value = survival_by_value(path, e, bounce);
   path.throughput *= next.weight;
   path.roulette *= next.roulette;
   path.origin = ray_origin(e.surface, next.direction.direction);
@@ -66,7 +84,7 @@ bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey ke
   path.weight = average(next.weight);
   path.cell = cell_of(e);
   if (bounce + 1u > parameters.path.y) {
-    float survival = min(max_component(path.roulette), MAX_SURVIVAL);
+    float survival = by_value > 0.0 ? by_value : min(max_component(path.roulette), MAX_SURVIVAL);
     if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
     path.throughput /= survival;
     path.roulette /= survival;
@@ -102,6 +120,7 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
   path.direction = direction;
   path.throughput = vec3(1.0);
   path.roulette = vec3(1.0);
+  path.expected = 0.0;
   path.radiance = vec3(0.0);
   path.pdf = 0.0;
   path.cell = NO_CELL;

@@ -17,7 +17,7 @@ enum class BinMap { cylindrical, concentric };
 enum class InitialTable { zero, constant, random, cosine };
 enum class BinWeight { value, value_cosine };
 enum class Mixture { fixed, learned };
-enum class Roulette { throughput, reflectance };
+enum class Roulette { throughput, reflectance, value };
 
 template <>
 struct EnumNames<UpdateRule> {
@@ -64,7 +64,7 @@ struct EnumNames<Mixture> {
 };
 template <>
 struct EnumNames<Roulette> {
-  static constexpr std::array<std::string_view, 2> values{"throughput", "reflectance"};
+  static constexpr std::array<std::string_view, 3> values{"throughput", "reflectance", "value"};
 };
 
 struct RlSettings {
@@ -90,6 +90,7 @@ struct RlSettings {
   Mixture mixture = Mixture::fixed;
   double bsdf_fraction = 0.5;
   double bin_floor = 0.1;
+  double roulette_scale = 2;
   int teach_frames = 0;
   double update_growth = 0;
   Roulette roulette = Roulette::throughput;
@@ -183,9 +184,15 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  0, 1},
         rl.update_growth);
   visit(KnobInfo{"roulette", "",
-                 "what Russian roulette goes by: the path's throughput, or what that would be had the BSDF drawn the "
-                 "same directions; the first ends paths where the table sent many, since each then counts for less"},
+                 "what Russian roulette goes by: the path's throughput; what that would be had the BSDF drawn the "
+                 "same directions (the first ends paths where the table sent many, since each then counts for less); "
+                 "or what the table expects of the rest of the path, over what it expected at its start"},
         rl.roulette);
+  visit(KnobInfo{"roulette_scale", "",
+                 "of roulette value: a path goes on with this times what it is expected to bring, over what it was "
+                 "expected to at its start; larger: longer paths, less noise",
+                 0.01, 100},
+        rl.roulette_scale);
 }
 
 }  // namespace qtrace

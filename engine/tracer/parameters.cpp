@@ -24,7 +24,7 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.learning = glm::vec4(real(settings.rl.rate_constant), real(settings.rl.rate_exponent),
                          real(settings.rl.initial_value), static_cast<float>(settings.light_prior));
   p.film = glm::vec4(real(settings.clamp_radiance), 0, 0, 0);
-  p.shaping = glm::vec4(real(settings.rl.shrinkage), 0, 0, 0);
+  p.shaping = glm::vec4(real(settings.rl.shrinkage), real(settings.rl.roulette_scale), 0, 0);
   p.image = glm::uvec4(whole(settings.width), whole(settings.height), settings.seed, 0);
   p.path = glm::uvec4(whole(settings.max_bounces), whole(settings.russian_roulette_start), features.lights,
                       cells != nullptr ? cells->count() : 0);
