@@ -58,14 +58,24 @@ class Results:
     @cached_property
     def cells(self) -> pd.DataFrame:
         """A row per cell: mean, standard deviation and 95 % interval over its seeds, as the program has them."""
-        return read_csv(self.folder / "cells.csv", CELLS_COLUMNS)
+        cells = read_csv(self.folder / "cells.csv", CELLS_COLUMNS)
+        cells.insert(1, "label", _labels(cells))
+        return cells
+
+    @property
+    def has_ratios(self) -> bool:
+        return (self.folder / "ratios.csv").is_file()
 
     @cached_property
     def ratios(self) -> pd.DataFrame:
         """A row per cell and figure: how it compares with the config's baseline. LoadError if that names none."""
-        if not (self.folder / "ratios.csv").is_file():
+        if not self.has_ratios:
             raise LoadError(f"{self.folder}: has no ratios.csv: its config names no baseline, see `qtrace keys`")
-        return read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
+        ratios = read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
+        labels = dict(zip(self.summary.cell, self.summary.label))
+        ratios.insert(1, "label", ratios.cell.map(labels))
+        ratios.insert(3, "baseline_label", ratios.baseline.map(labels))
+        return ratios
 
 
 def axis_columns(summary: pd.DataFrame) -> list[str]:

@@ -98,3 +98,9 @@ def final_over_seeds(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
     times its own seconds, as in the tables of `qtrace run`."""
     last = convergence[convergence.frame == convergence.groupby("run").frame.transform("max")]
     return over_seeds(last.assign(relmse_x_s=last.relmse * last.elapsed_s), metric)
+
+
+def cost_points(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
+    """`final_over_seeds` with the interval of the seconds, too: `seconds_low` and `seconds_high`."""
+    seconds = final_over_seeds(convergence.assign(elapsed=convergence.elapsed_s), "elapsed")
+    return final_over_seeds(convergence, metric).assign(seconds_low=seconds.low, seconds_high=seconds.high)
