@@ -82,6 +82,7 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
                 summary.append({"run": run, "cell": f"{scene} / {method}", "axis:scene": scene,
                                 "axis:method": method, "axis:seed": str(seed), "scene": scene, "seed": seed,
                                 "status": "finished", "reason": "", "frames": SNAPSHOTS[-1],
+                                "host_ms_median": SECONDS[method] * (1000 + seed),
                                 "relmse": relmse(method, seed, SNAPSHOTS[-1], scene)})
                 runs.append({"run": run, "status": "finished"})
     write_csv(folder / "summary.csv", summary)
