@@ -20,7 +20,7 @@ from analysis.load import Results, load
 
 TEMPLATE = Path(__file__).with_name("compare_page.html.j2")
 HEADER = ("cell", "figure", "A", "B", "B/A [95 %]", "p", "verdict")
-PLOT = {"width": 160, "height": 14, "decades": 1.0}  # of the page's ratios: from 1/10 to 10
+PLOT = {"width": 160, "height": 14}  # pixels, of the page's little plots
 
 
 def _ratio(row: Row) -> str:
@@ -66,21 +66,32 @@ def plain_text(a: Results, b: Results, result: SideBySide) -> str:
     return "\n".join([*lines, "", headline(result), explanation()]) + "\n"
 
 
-def _x(ratio: float) -> float:
-    """Place on the logarithmic axis of the page's little plots; what is outside stands at its end."""
-    share = (math.log10(ratio) / PLOT["decades"] + 1) / 2 if ratio > 0 else 0
+def _reach(rows: list[Row]) -> float:
+    """The largest ratio, or one over the least, that the plots show: all of them, but not the ends of wide bars."""
+    return 1.25 * math.exp(max(abs(math.log(row.comparison.ratio)) for row in rows))
+
+
+def _x(ratio: float, reach: float) -> float:
+    """Place on the plots' logarithmic axis from 1/reach to reach; what is outside stands at its end."""
+    share = (math.log(ratio) / math.log(reach) + 1) / 2 if ratio > 0 else 0
     return round(min(1.0, max(0.0, share)) * PLOT["width"], 2)
+
+
+def _bar(row: Row, reach: float) -> dict[str, float | None]:
+    ends = (row.comparison.low, row.comparison.high)
+    low, high = (None if math.isnan(end) else _x(end, reach) for end in ends)
+    return {"middle": _x(row.comparison.ratio, reach), "low": low, "high": high}
 
 
 def page(a: Results, b: Results, result: SideBySide) -> str:
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True,
                                      lstrip_blocks=True)
-    rows = [{"fields": fields(row), "verdict": row.verdict, "scene": row.scene, "middle": _x(row.comparison.ratio),
-             "low": None if math.isnan(row.comparison.low) else _x(row.comparison.low),
-             "high": None if math.isnan(row.comparison.low) else _x(row.comparison.high)} for row in result.rows]
+    reach = _reach(result.rows)
+    rows = [{"fields": fields(row), "verdict": row.verdict, "scene": row.scene, **_bar(row, reach)}
+            for row in result.rows]
     return environment.from_string(TEMPLATE.read_text(encoding="utf-8")).render(
         a=a, b=b, rows=rows, result=result, header=HEADER, headline=headline(result), explanation=explanation(),
-        missing=missing(result), plot=PLOT) + "\n"
+        missing=missing(result), plot=PLOT, reach=f"{reach:.2g}") + "\n"
 
 
 def main(arguments: list[str] | None = None) -> None:

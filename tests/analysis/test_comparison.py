@@ -121,6 +121,7 @@ class CompareTest(FolderTest):
         page = (out / "compare.html").read_text()
         self.assertIn("occluded / &lt;b&gt;new&lt;/b&gt;", page)
         self.assertIn("another &amp; device", page)
+        self.assertIn("<p>only in A: occluded / RL</p>", page)
         self.assertNotIn("<b>new", page)
         self.assertEqual(page.count("<circle"), 30)
         self.assertNotRegex(page, r"(?:src|href)=|https?://|@import|url\(")  # it needs nothing else
