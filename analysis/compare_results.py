@@ -38,15 +38,15 @@ def fields(row: Row) -> tuple[str, ...]:
 
 def headline(result: SideBySide) -> str:
     cells = len(dict.fromkeys(row.cell for row in result.rows))
-    counts = ", ".join(f"{result.count(verdict)} {text}" for verdict, text in
-                       (("changed", "changed"), ("unclear", "unclear"), ("noise", "noise"), ("same", "the same in every seed"),
-                        ("one seed", "of one seed alone, which has no interval")) if result.count(verdict))
+    words = {"changed": "changed", "unclear": "unclear", "noise": "noise", "same": "the same in every seed",
+             "one seed": "of one seed alone, which has no interval"}
+    counts = ", ".join(f"{result.count(verdict)} {text}" for verdict, text in words.items() if result.count(verdict))
     return f"{len(result.rows)} comparisons in {cells} cells: {counts or 'nothing to compare'}."
 
 
 def explanation() -> str:
-    return (f"B/A: ratio of the means over seeds with its 95 % interval, by Welch's test on their logarithms. p: corrected "
-            f"for the number of comparisons (Benjamini and Hochberg). changed: p below {LEVEL}, so that of all changes "
+    return ("B/A: ratio of the means over seeds with its 95 % interval, by Welch's test on their logarithms. p: "
+            f"corrected for the number of comparisons (Benjamini and Hochberg). changed: p below {LEVEL}, so that of all changes "
             f"named here {LEVEL:.0%} are expected to be none. unclear: the interval leaves out 1, but among so many "
             "comparisons that may be chance: more seeds would tell. noise: no change was shown; the interval says how "
             "large it could be. Errors are those of the last snapshot that both sides have.")

@@ -145,7 +145,8 @@ def compare(a: Results, b: Results) -> SideBySide:
         if _references(a, cell) != _references(b, cell):
             notes.setdefault("the references differ, and a part of a change in error may be theirs", []).append(cell)
         sides = (_values(a, cell, frame), _values(b, cell, frame))
-        rows += filter(None, (_compare(name, heading, scene, cell, *sides) for name, heading in (TIMES | ERRORS).items()))
+        compared = (_compare(name, heading, scene, cell, *sides) for name, heading in (TIMES | ERRORS).items())
+        rows += filter(None, compared)
     corrected = [replace(row, p=p) for row, p in zip(rows, false_discovery(row.p for row in rows))]
     only = ([cell for cell in cells_a if cell not in cells_b], [cell for cell in cells_b if cell not in cells_a])
     return SideBySide(corrected, only, _facts(a, b), [f"{note}: {some(cells)}" for note, cells in notes.items()])

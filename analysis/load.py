@@ -139,8 +139,8 @@ def _check_schema(folder: Path, manifest: dict[str, Any]) -> None:
     if not isinstance(schema, int) or schema < 0:
         raise LoadError(f"{folder / 'manifest.json'}: schema is {schema!r} but must be a whole number")
     if schema > SCHEMA:
-        raise LoadError(f"{folder}: has schema {schema}, but this analysis reads {SCHEMA} and older: use the analysis of "
-                        "the qtrace that wrote it")
+        raise LoadError(f"{folder}: has schema {schema}, but this analysis reads {SCHEMA} and older: use the analysis "
+                        "of the qtrace that wrote it")
 
 
 def load(results: str | os.PathLike[str]) -> Results:

@@ -34,8 +34,8 @@ def cell_table(results: Results) -> Table:
     device = results.experiment.get("device", {}).get("renderer", "an unnamed device")
     return Table(["scene", "method", "frames", "seeds", *figures],
                  ["scene", "method", "frames", "seeds", *figures.values()], rows,
-                 caption=f"{results.name}, {device}: means over seeds [95 % confidence interval]; ms/frame: median of a "
-                         "run's frames after its warm-up, by the host's clock; s: all frames; both with learning; "
+                 caption=f"{results.name}, {device}: means over seeds [95 % confidence interval]; ms/frame: median of "
+                         "a run's frames after its warm-up, by the host's clock; s: all frames; both with learning; "
                          "errors: at the last frame.")
 
 
