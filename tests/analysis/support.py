@@ -87,7 +87,7 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
                 runs.append({"run": run, "status": "finished"})
     write_csv(folder / "summary.csv", summary)
     write_csv(folder / "cells.csv", [cell_row(scene, method, seeds) for scene in scenes for method in methods])
-    manifest = {"status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
+    manifest = {"schema": 1, "status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
     (folder / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
     return folder
 

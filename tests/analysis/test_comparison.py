@@ -101,7 +101,7 @@ class CompareTest(FolderTest):
         cut = short.convergence[short.convergence.frame <= 4]
         result = compare(a, type(b)(b.folder, b.experiment, b.summary, cut))
         self.assertEqual({row.verdict for row in result.rows}, {"same"})
-        self.assertIn("the runs differ in length; errors are those after frame 4: simple / NEE, two rays; simple / BSDF",
+        self.assertIn("the runs differ in length; errors are those after frame 4: simple / NEE, two rays; simple / BS",
                       result.warnings[0])
 
     def test_command(self) -> None:
