@@ -67,8 +67,10 @@ def _latex(field: Field) -> str:
         return "--"
     if math.isinf(field.mean):
         return r"$\infty$"
-    interval = "" if math.isnan(field.low) else rf"\;[{_latex_number(field.low)},\,{_latex_number(field.high)}]"
-    return f"${_latex_number(field.mean)}{interval}$"
+    value = f"${_latex_number(field.mean)}$"
+    if math.isnan(field.low):
+        return value
+    return rf"{value} {{\scriptsize$[{_latex_number(field.low)},\,{_latex_number(field.high)}]$}}"
 
 
 def csv_text(table: Table) -> str:

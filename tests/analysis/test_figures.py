@@ -100,7 +100,9 @@ class PrintTest(FolderTest):
         for name, value in (("relmse", expected.mean), ("relmse_low", expected.low), ("relmse_high", expected.high)):
             self.assertEqual(float(rows["RL"][name]), value)
         self.assertIn("study, a device", (self.out / "table.md").read_text())
-        self.assertIn(r"simple & RL & BSDF & $2.50\;[2.25,\,2.75]$ \\", (self.out / "ratios.tex").read_text())
+        ratios = (self.out / "ratios.tex").read_text()
+        self.assertIn(r"simple & RL & $2.50$ {\scriptsize$[2.25,\,2.75]$} \\", ratios)
+        self.assertIn("% study, baseline: BSDF. ", ratios)  # the same in all rows
 
     def test_failures(self) -> None:
         for arguments, words in ((("--metric", "bias"), "unknown metric 'bias'"),

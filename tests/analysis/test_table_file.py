@@ -39,7 +39,7 @@ class TableTest(unittest.TestCase):
         text = latex_table(TABLE)
         self.assertIn(r"\begin{tabular}{llrr}", text)
         self.assertIn(r"scene & a \& b & frames & relMSE \\", text)
-        self.assertIn(r"one & 50 \% of\_it & 12 & $0.0123\;[0.0110,\,0.0140]$ \\", text)
+        self.assertIn(r"one & 50 \% of\_it & 12 & $0.0123$ {\scriptsize$[0.0110,\,0.0140]$} \\", text)
         self.assertIn(r" & x\textbar{}y, ''quoted'' & 12 & $1.23\times 10^{3}$ \\", text.replace('"', "''"))
         self.assertIn(r"two & \{a\}\textasciicircum{}b\textasciitilde{}\$\#\textbackslash{} & 12 & -- \\", text)
         self.assertEqual([text.count(rule) for rule in (r"\toprule", r"\midrule", r"\bottomrule")], [1, 2, 1])
