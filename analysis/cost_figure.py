@@ -38,11 +38,14 @@ def _bars(point) -> dict[str, list]:
 
 
 def _draw_diagonals(axes: Axes) -> None:
-    """Lines of equal error × time, a factor of 10 apart: an unbiased sampler moves along them with more samples."""
+    """Lines of equal error × time, a factor of 10 apart, or of 2 where those would be few: an unbiased sampler moves
+    along them with more samples."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    for exponent in range(math.floor(math.log10(left * bottom)), math.ceil(math.log10(right * top)) + 1):
-        axes.plot([left, right], [10.0 ** exponent / left, 10.0 ** exponent / right], label="_diagonal",
-                  scalex=False, scaley=False, **DIAGONAL)
+    step = 10 if right * top > 1000 * left * bottom else 2
+    for exponent in range(math.floor(math.log(left * bottom, step)), math.ceil(math.log(right * top, step)) + 1):
+        product = float(step) ** exponent
+        axes.plot([left, right], [product / left, product / right], label="_diagonal", scalex=False, scaley=False,
+                  **DIAGONAL)
 
 
 def _range(points: pd.DataFrame) -> tuple[float, float]:

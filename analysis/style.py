@@ -80,7 +80,7 @@ def line_styles(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
 
 def format_log_axis(axis: Axis, low: float, high: float) -> None:
     """Plain numbers; 1, 2, 5 or more as ticks where whole decades would be too few to read values from."""
-    steps = (1, 1.5, 2, 3, 4, 5, 6, 8) if high / low < 5 else (1, 2, 5) if high / low < 1000 else (1,)
+    steps = (1, 1.5, 2, 3, 4, 5, 6, 8) if high / low < 10 else (1, 2, 5) if high / low < 1000 else (1,)
     axis.set_major_locator(LogLocator(10, subs=steps, numticks=12))
     axis.set_minor_locator(NullLocator() if len(steps) > 1 else LogLocator(10, subs=range(2, 10), numticks=12))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
