@@ -1,5 +1,6 @@
 #include "experiments/config_command.h"
 
+#include "experiments/config_errors.h"
 #include "experiments/experiment.h"
 #include "experiments/json_schema.h"
 #include "experiments/manifest.h"
@@ -10,16 +11,25 @@
 namespace qtrace::experiments {
 namespace {
 
-// Everything that `run` checks before its first frame. Throws Error.
-std::string check_config(const std::string& file, const ConfigOptions& options, const gpu::Context* context,
-                         SceneStore& scenes, Progress& progress) {
-  const Experiment experiment = load_experiment(file, options.sets);
-  load_scenes(experiment, scenes, progress);
-  if (context != nullptr) check_device(experiment, *context, scenes);
+// Everything that `run` checks before its first frame; what is wrong goes to stderr. Returns whether all is
+// good.
+bool check_config(const std::string& file, const ConfigOptions& options, const gpu::Context* context,
+                  SceneStore& scenes, Progress& progress) {
+  Experiment experiment;
+  std::vector<std::string> errors = config_errors(file, options.sets, experiment);
+  try {
+    if (errors.empty()) load_scenes(experiment, scenes, progress);
+    if (errors.empty() && context != nullptr) check_device(experiment, *context, scenes);
+  } catch (const Error& error) {
+    errors.emplace_back(error.what());
+  }
+  for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
+  if (!errors.empty()) return false;
   std::set<std::string> cells;
   for (const Run& run : experiment.runs) cells.insert(run.cell);
-  return fmt::format("{}: good: '{}', runs: {}, cells: {}", file, experiment.name, experiment.runs.size(),
-                     cells.size());
+  fmt::print("{}: good: '{}', runs: {}, cells: {}\n", file, experiment.name, experiment.runs.size(),
+             cells.size());
+  return true;
 }
 
 int check_configs(const ConfigOptions& options) {
@@ -27,16 +37,11 @@ int check_configs(const ConfigOptions& options) {
   if (!options.no_device) context.emplace(options.device);
   Progress progress(Progress::detect(true));
   SceneStore scenes;
-  int wrong = 0;
+  bool all_good = true;
   for (const std::string& file : options.files) {
-    try {
-      fmt::print("{}\n", check_config(file, options, context ? &*context : nullptr, scenes, progress));
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "error: {}\n", error.what());
-      ++wrong;
-    }
+    all_good = check_config(file, options, context ? &*context : nullptr, scenes, progress) && all_good;
   }
-  return wrong == 0 ? 0 : 1;
+  return all_good ? 0 : 1;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-"""The JSON Schema and the program agree about configs: every shipped one is good by both, every kind of error bad by both,
-and the limits of every key are the same. `qtrace config check` as its user runs it. What docs/ holds is current."""
+"""The JSON Schema and the program agree about configs: every shipped one is good by both, every kind of error bad by
+both, and the limits of every key are the same. `qtrace config check` as its user runs it. What docs/ holds is current."""
 
 import json
 import os
@@ -107,10 +107,12 @@ class SchemaTest(unittest.TestCase):
                    "member_at_top": GOOD | {"bins_phi": 3}, "text_for_number": GOOD | {"width": "512"},
                    "fraction": GOOD | {"width": 3.5}, "null": GOOD | {"width": None}, "word": GOOD | {"nee": "both"},
                    "truth": GOOD | {"rl": {"bsdf_fraction": True}}, "number_for_group": GOOD | {"rl": 3},
-                   "two_channels": GOOD | {"environment": [1, 2]}, "negative_channel": GOOD | {"environment": [0, 0, -1]},
+                   "two_channels": GOOD | {"environment": [1, 2]},
+                   "negative_channel": GOOD | {"environment": [0, 0, -1]},
                    "snapshot_zero": GOOD | {"snapshots": [0]}, "snapshot_word": GOOD | {"snapshots": "all"},
                    "dotted_range": GOOD | {"rl.bins_phi": 0}, "schema": GOOD | {"$schema": 3},
-                   "sweep_object": GOOD | {"sweep": {}}, "two_in_one_axis": GOOD | {"sweep": [{"seed": [1], "nee": []}]},
+                   "sweep_object": GOOD | {"sweep": {}},
+                   "two_in_one_axis": GOOD | {"sweep": [{"seed": [1], "nee": []}]},
                    "empty_axis": GOOD | {"sweep": [{}]}, "no_values": GOOD | {"sweep": [{"seed": []}]},
                    "twice": GOOD | {"sweep": [{"seed": [1, 1]}]}, "axis_value": GOOD | {"sweep": [{"nee": ["both"]}]},
                    "axis_range": GOOD | {"sweep": [{"rl.bins_phi": [0]}]}, "axis_key": GOOD | {"sweep": [{"sed": [1]}]},
@@ -158,6 +160,26 @@ class SchemaTest(unittest.TestCase):
             self.assertTrue(VALIDATOR.is_valid(config), name)
             self.assertIn(words, said[name])
             self.assertEqual(said[name] == "", words == "", name)
+
+    def test_every_error_of_a_file_is_named(self) -> None:
+        config = GOOD | {"widht": 3, "frames": 0, "rl": {"bins_fi": 3, "update": "best", "bins_phi": 4}, "nee": "none",
+                         "rl.bins_theta": 65, "sweep": [{"sed": [1]}, {"seed": [1]}, {"nee": []},
+                                                     {"how": {"A": {"rl": {"bins_phi": 0}}}}]}
+        (self.folder / "c.json").write_text(json.dumps(config))
+        result = qtrace("config", "check", "--no-device", "c.json", cwd=self.folder)
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        words = ["key 'frames' is 0", "unknown key 'widht'; did you mean 'width'?", "unknown key 'rl.bins_fi'",
+                 "key 'rl.update' is \"best\"", "key 'rl.bins_theta' is 65", "unknown key 'sed'",
+                 "sweep axis 'nee' has no values", "'A' of sweep axis 'how': key 'rl.bins_phi' is 0"]
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), len(words), result.stderr)
+        for line, word in zip(lines, words):
+            self.assertTrue(line.startswith("error: c.json: "), line)
+            self.assertIn(word, line)
+        for text in ("{", "[]", '{"name": "a", "name": "b"}'):  # no members to look at one by one: one sentence
+            (self.folder / "c.json").write_text(text)
+            said = qtrace("config", "check", "--no-device", "c.json", cwd=self.folder).stderr
+            self.assertEqual(len(said.splitlines()), 1, said)
 
     def test_the_device_counts_unless_told_otherwise(self) -> None:
         large = {"large": GOOD | {"width": 16384, "height": 16384}}
