@@ -47,9 +47,10 @@ def headline(result: SideBySide) -> str:
 def explanation() -> str:
     return ("B/A: ratio of the means over seeds with its 95 % interval, by Welch's test on their logarithms. p: "
             "corrected for the number of comparisons (Benjamini and Hochberg). "
-            f"changed: p below {LEVEL}, so that of all changes named here {LEVEL:.0%} are expected to be none. unclear: the interval leaves out 1, but among so many "
-            "comparisons that may be chance: more seeds would tell. noise: no change was shown; the interval says how "
-            "large it could be. Errors are those of the last snapshot that both sides have.")
+            f"changed: p below {LEVEL}, so that at most {LEVEL * 100:g} % of the changes named here are expected to be "
+            "none. unclear: the interval leaves out 1, but among so many comparisons that may be chance: more seeds "
+            "would tell. noise: no change was shown; the interval says how large it could be. Errors are those of the "
+            "last snapshot that both sides have.")
 
 
 def missing(result: SideBySide) -> list[str]:
