@@ -23,8 +23,6 @@ from analysis.load import Results, load
 from analysis.statistics import final_over_seeds
 
 PANELS = {"relmse": "relMSE at the last frame", "relmse_x_s": "relMSE × s (seconds, learning included)"}
-WIDTH = 11.0  # inches
-LINE_HEIGHT = 0.3
 DPI = 160
 
 
@@ -34,7 +32,7 @@ def _draw(axes: Axes, points: pd.DataFrame) -> None:
     if barred.any():
         bars = points[barred]
         axes.errorbar(bars["mean"], lines[barred], xerr=[bars["mean"] - bars.low, bars.high - bars["mean"]],
-                      fmt="none", ecolor="0.45", elinewidth=1.4, capsize=3, zorder=2)
+                      fmt="none", ecolor="0.45", capsize=2.5, zorder=2)
     for floor, face in ((False, style.COLOURS[0]), (True, "white")):
         some = (points.at_floor == floor).to_numpy()
         axes.plot(points["mean"][some], lines[some], "o", color=style.COLOURS[0], markerfacecolor=face, zorder=3)
@@ -55,17 +53,19 @@ def _caption(points: pd.DataFrame) -> str:
     return " ".join(sentences)
 
 
-def ablation_figure(results: Results, scene: str) -> Figure:
+def ablation_figure(results: Results, scene: str, look: style.Look = style.SCREEN) -> Figure:
     """Raises AnalysisError where nothing can be drawn on logarithmic axes."""
     runs = results.convergence[results.convergence.scene == scene]
     columns = {metric: final_over_seeds(runs, metric) for metric in PANELS}
     points = columns["relmse"]
     if not (points["mean"] > 0).any():
         raise command.AnalysisError(f"{results.folder}: no relMSE of {scene} is above zero, so nothing can be drawn")
-    with matplotlib.rc_context(style.RC):
-        figure = Figure(figsize=(WIDTH, LINE_HEIGHT * len(points) + 1.7), layout="constrained")
-        figure.suptitle(title(results, points), fontsize=13)
-        figure.supxlabel(_caption(points), fontsize=8.5, color="0.25")
+    with matplotlib.rc_context(look.rc):
+        figure = Figure(figsize=(look.width, look.line_height * len(points) + (1.7 if look.words else 0.6)),
+                        layout="constrained")
+        if look.words:
+            figure.suptitle(title(results, points), fontsize=13)
+            figure.supxlabel(_caption(points), fontsize=look.note_size, color="0.25")
         row = figure.subplots(1, len(PANELS), sharey=True)
         for axes, (metric, label) in zip(row, PANELS.items()):
             _draw(axes, columns[metric])
@@ -73,6 +73,7 @@ def ablation_figure(results: Results, scene: str) -> Figure:
         row[0].set_title(scene, loc="left", fontweight="bold")
         row[0].set_yticks(np.arange(len(points)), points.label)
         row[0].set_ylim(len(points) - 0.5, -0.5)  # the sweep's first cell on top
+        style.fix_layout(figure)
     return figure
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import Callable
+from typing import Callable, Iterable
 
 
 class AnalysisError(Exception):
@@ -34,3 +34,8 @@ def write_whole(file: Path, write: Callable[[Path], None]) -> None:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise AnalysisError(f"{file}: cannot be written: {error.strerror or error}") from error
+
+
+def check_one_of(what: str, value: str, allowed: Iterable[str]) -> None:
+    if value not in allowed:
+        raise AnalysisError(f"unknown {what} '{value}'; known are {', '.join(allowed)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from typing import Sequence
 
 import matplotlib
 import numpy as np
@@ -29,8 +30,6 @@ METRICS = {
     "flip": ("HDR-FLIP (0 to 1)", None),
 }
 X_AXES = {"spp": "samples per pixel (spp)", "seconds": "render time (s), learning included"}
-WIDTH = 11.0       # inches
-ROW_HEIGHT = 3.7
 FLOOR_REACH = 100  # a floor this much below all curves is named rather than drawn, to leave them room
 BAND_REACH = 4     # bands may widen the axis by this factor; few seeds can give bands of many decades
 
@@ -61,19 +60,20 @@ def draw_cells(axes: Axes, points: pd.DataFrame, x: str, styles: dict[str, dict]
                               edgecolor=to_rgba(look["color"], 0.45 * faint))
 
 
-def _floor_values(convergence: pd.DataFrame, column: str | None) -> list[float]:
+def floor_values(convergence: pd.DataFrame, column: str | None) -> list[float]:
     """Each reference's noise once; none where it is unknown."""
     return [] if column is None else sorted(convergence[column].dropna().unique())
 
 
-def _draw_floors(axes: Axes, floors: list[float], with_text: bool) -> None:
+def _draw_floors(axes: Axes, floors: list[float], note_size: float | None) -> None:
+    """`note_size`: of the words; None: a line alone."""
     bottom = axes.get_ylim()[0]
     inside = [floor for floor in floors if floor >= bottom]
     for floor in inside:
         axes.axhline(floor, label="_floor", zorder=1, **style.FLOOR)
-    if not with_text or not floors:
+    if note_size is None or not floors:
         return
-    note = {"xytext": (4, 3), "textcoords": "offset points", "fontsize": 8.5, "color": "0.25", "zorder": 5,
+    note = {"xytext": (4, 3), "textcoords": "offset points", "fontsize": note_size, "color": "0.25", "zorder": 5,
             "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.8}}
     values = " to ".join(f"{floor:.2g}" for floor in dict.fromkeys((floors[0], floors[-1])))
     if inside:
@@ -95,7 +95,8 @@ def _format_panel(axes: Axes, points: pd.DataFrame, x: str, y_range: tuple[float
     axes.set_xlabel(X_AXES[x])
 
 
-def _legend(figure: Figure, points: pd.DataFrame, styles: dict[str, dict], has_floor: bool) -> None:
+def _legend(figure: Figure, points: pd.DataFrame, styles: dict[str, dict], has_floor: bool,
+            look: style.Look) -> float:
     entries = [Line2D([], [], label=label, **look) for label, look in styles.items()]
     if points.low.notna().any():
         entries.append(Patch(color="0.5", alpha=0.3, linewidth=0, label="95 % confidence of the mean"))
@@ -104,10 +105,7 @@ def _legend(figure: Figure, points: pd.DataFrame, styles: dict[str, dict], has_f
     if points.at_floor.any():
         entries.append(Line2D([], [], color="0.2", marker="o", linestyle="none", markerfacecolor="white",
                               label="at the reference's noise"))
-    longest = max(len(entry.get_label()) for entry in entries)
-    columns = max(1, min(len(entries), int(WIDTH / (0.08 * longest + 0.6))))
-    figure.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=columns, frameon=False,
-                  handlelength=3)
+    return style.legend_below(figure, entries, look)
 
 
 def _span(values: pd.Series, unit: str) -> str:
@@ -136,9 +134,8 @@ def _caption(results: Results, points: pd.DataFrame, floor_column: str | None) -
     return textwrap.fill(" ".join(sentences), 155)
 
 
-def convergence_figure(results: Results, metric: str) -> Figure:
-    """Raises AnalysisError where nothing can be drawn on logarithmic axes."""
-    label, floor_column = METRICS[metric]
+def metric_points(results: Results, metric: str) -> pd.DataFrame:
+    """Means over seeds. Raises AnalysisError where nothing can be drawn on logarithmic axes."""
     measured = results.convergence.get(metric)
     if measured is None or (len(measured) and measured.isna().all()):
         hint = ': "flip": true in the config asks for it' if metric == "flip" else ""
@@ -146,27 +143,36 @@ def convergence_figure(results: Results, metric: str) -> Figure:
     points = over_seeds(results.convergence, metric)
     if not (points["mean"] > 0).any():
         raise AnalysisError(f"{results.folder}: no {metric} is above zero, so there is nothing to draw")
-    styles = style.line_styles(points.label)
-    scenes = list(dict.fromkeys(points.scene))
-    with matplotlib.rc_context(style.RC):
-        figure = Figure(figsize=(WIDTH, ROW_HEIGHT * len(scenes) + 0.8), layout="constrained")
-        figure.suptitle(title(results, points), fontsize=13)
-        figure.supxlabel(_caption(results, points, floor_column), fontsize=8.5, color="0.25")
-        grid = figure.subplots(len(scenes), len(X_AXES), squeeze=False)
+    return points
+
+
+def convergence_figure(results: Results, metric: str, look: style.Look = style.SCREEN,
+                       scenes: Sequence[str] | None = None, x_axes: Sequence[str] = tuple(X_AXES)) -> Figure:
+    """A row per scene (default: all) and a column per axis. Raises AnalysisError where nothing can be drawn."""
+    label, floor_column = METRICS[metric]
+    points = metric_points(results, metric)
+    styles = style.line_styles(points.label)  # of all scenes, so that all figures agree
+    points = points[points.scene.isin(scenes or points.scene)]
+    styles = {name: styles[name] for name in dict.fromkeys(points.label)}
+    shown = list(dict.fromkeys(points.scene))
+    with matplotlib.rc_context(look.rc):
+        figure = Figure(figsize=(look.width, look.row_height * len(shown) + (0.8 if look.words else 0)),
+                        layout="constrained")
+        if look.words:
+            figure.suptitle(title(results, points), fontsize=13)
+            figure.supxlabel(_caption(results, points, floor_column), fontsize=look.note_size, color="0.25")
+        grid = figure.subplots(len(shown), len(x_axes), squeeze=False)
         any_floor = False
-        for scene, row in zip(scenes, grid):
+        for scene, row in zip(shown, grid):
             here = points[points.scene == scene]
-            floors = _floor_values(results.convergence[results.convergence.scene == scene], floor_column)
+            floors = floor_values(results.convergence[results.convergence.scene == scene], floor_column)
             y_range = axis_range(here, floors)
-            for x, axes in zip(X_AXES, row):
+            for x, axes in zip(x_axes, row):
                 draw_cells(axes, here, x, styles)
                 _format_panel(axes, here, x, y_range)
-                _draw_floors(axes, floors, with_text=x == "spp")
+                _draw_floors(axes, floors, look.note_size if x == x_axes[0] else None)
             row[0].set_ylabel(label)
             row[0].set_title(scene, loc="left", fontweight="bold")
             any_floor = any_floor or any(floor >= y_range[0] for floor in floors)
-        _legend(figure, points, styles, any_floor)
-        # The layout is fixed here, as each drawing would move it a little: all formats shall agree.
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+        style.fix_layout(figure, _legend(figure, points, styles, any_floor, look))
     return figure

@@ -17,9 +17,13 @@ from typing import Any
 import pandas as pd
 
 from analysis.csv_file import LoadError, read_csv
+from analysis.ratios import cells_of
 
 __all__ = ["LoadError", "Results", "load", "read_manifest"]
 
+# Of the manifest's "schema": the newest that is understood. 0 are results from before it was written; they may lack
+# cells.csv, ratios.csv and whichever columns are newer than those named below.
+SCHEMA = 1
 METRICS = ["mse", "relmse", "relmse_trimmed", "mape"]
 SUMMARY_COLUMNS = ["run", "cell", "scene", "seed", "status", "frames"]
 CONVERGENCE_COLUMNS = ["frame", "spp", "elapsed_s", *METRICS, "reference_mse", "reference_relmse",
@@ -43,6 +47,10 @@ class Results:
         return str(self.experiment.get("experiment", self.folder.name))
 
     @property
+    def schema(self) -> int:
+        return int(self.experiment.get("schema", 0))
+
+    @property
     def finished(self) -> pd.DataFrame:
         return self.summary[self.summary.status == "finished"]
 
@@ -58,14 +66,27 @@ class Results:
     @cached_property
     def cells(self) -> pd.DataFrame:
         """A row per cell: mean, standard deviation and 95 % interval over its seeds, as the program has them."""
-        return read_csv(self.folder / "cells.csv", CELLS_COLUMNS)
+        file = self.folder / "cells.csv"
+        # Results of schema 0 may be older than that file.
+        is_old = self.schema == 0 and not file.is_file()
+        cells = cells_of(self.summary) if is_old else read_csv(file, CELLS_COLUMNS)
+        cells.insert(1, "label", _labels(cells))
+        return cells
+
+    @property
+    def has_ratios(self) -> bool:
+        return (self.folder / "ratios.csv").is_file()
 
     @cached_property
     def ratios(self) -> pd.DataFrame:
         """A row per cell and figure: how it compares with the config's baseline. LoadError if that names none."""
-        if not (self.folder / "ratios.csv").is_file():
+        if not self.has_ratios:
             raise LoadError(f"{self.folder}: has no ratios.csv: its config names no baseline, see `qtrace keys`")
-        return read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
+        ratios = read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
+        labels = dict(zip(self.summary.cell, self.summary.label))
+        ratios.insert(1, "label", ratios.cell.map(labels))
+        ratios.insert(3, "baseline_label", ratios.baseline.map(labels))
+        return ratios
 
 
 def axis_columns(summary: pd.DataFrame) -> list[str]:
@@ -113,6 +134,15 @@ def read_manifest(file: Path) -> dict[str, Any]:
     return manifest
 
 
+def _check_schema(folder: Path, manifest: dict[str, Any]) -> None:
+    schema = manifest.get("schema", 0)
+    if not isinstance(schema, int) or schema < 0:
+        raise LoadError(f"{folder / 'manifest.json'}: schema is {schema!r} but must be a whole number")
+    if schema > SCHEMA:
+        raise LoadError(f"{folder}: has schema {schema}, but this analysis reads {SCHEMA} and older: use the analysis "
+                        "of the qtrace that wrote it")
+
+
 def load(results: str | os.PathLike[str]) -> Results:
     """Reads results/<experiment>. Raises LoadError: no such folder, no finished run, an unreadable file."""
     folder = Path(results)
@@ -121,6 +151,7 @@ def load(results: str | os.PathLike[str]) -> Results:
     if not (folder / "summary.csv").is_file():
         raise LoadError(f"{folder}: has no summary.csv, so it is not the folder of an experiment")
     experiment = read_manifest(folder / "manifest.json")
+    _check_schema(folder, experiment)
     summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS)
     summary.insert(2, "label", _labels(summary))
     finished = summary[summary.status == "finished"]

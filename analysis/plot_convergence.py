@@ -29,17 +29,12 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _check_one_of(what: str, value: str, allowed: tuple[str, ...]) -> None:
-    if value not in allowed:
-        raise command.AnalysisError(f"unknown {what} '{value}'; known are {', '.join(allowed)}")
-
-
 def main(arguments: list[str] | None = None) -> None:
     options = _arguments(arguments)
     formats = options.format.split(",")
-    _check_one_of("metric", options.metric, tuple(METRICS))
+    command.check_one_of("metric", options.metric, METRICS)
     for name in formats:
-        _check_one_of("format", name, FORMATS)
+        command.check_one_of("format", name, FORMATS)
     figure = convergence_figure(load(options.results), options.metric)
     for name in formats:
         file = (options.out or options.results) / f"convergence_{options.metric}.{name}"

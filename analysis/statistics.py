@@ -33,27 +33,51 @@ class Estimate:
     count: int
 
 
-def t_probability(t: float, degrees: int) -> float:
-    """P(|T| < t) of Student's t distribution; Abramowitz and Stegun 1964, 26.7.3 (odd) and 26.7.4 (even)."""
-    angle = math.atan(t / math.sqrt(degrees))
-    odd = degrees % 2
-    term = math.cos(angle) if odd else 1.0
-    total = term if degrees > 1 else 0.0
-    for k in range(3 if odd else 2, degrees - 1, 2):
-        term *= (k - 1) / k * math.cos(angle) ** 2
-        total += term
-    return 2 / math.pi * (angle + math.sin(angle) * total) if odd else math.sin(angle) * total
+def _beta_fraction(a: float, b: float, x: float) -> float:
+    """The continued fraction of the incomplete beta function, Abramowitz and Stegun 1964, 26.5.8, by Lentz's method."""
+    c, d = 1.0, 1 / (1 - (a + b) * x / (a + 1))
+    result = d
+    for m in range(1, 10000):
+        before = result
+        for term in (m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
+                     -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))):
+            d = 1 / (1 + term * d)
+            c = 1 + term / c
+            result *= c * d
+        if result == before or abs(result / before - 1) < 1e-16:
+            break
+    return result
+
+
+def incomplete_beta(a: float, b: float, x: float) -> float:
+    """The regularised I_x(a, b)."""
+    if x <= 0 or x >= 1:
+        return float(x >= 1)
+    front = math.exp(math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) + b * math.log1p(-x))
+    if x < (a + 1) / (a + b + 2):
+        return front * _beta_fraction(a, b, x) / a
+    return 1 - front * _beta_fraction(b, a, 1 - x) / b
+
+
+def t_tail(t: float, degrees: float) -> float:
+    """P(|T| > t) of Student's t distribution, whose degrees need not be whole; 26.7.1."""
+    return incomplete_beta(degrees / 2, 0.5, degrees / (degrees + t * t))
+
+
+def t_probability(t: float, degrees: float) -> float:
+    """P(|T| < t); the other side of the same, so that small ones are exact, too."""
+    return incomplete_beta(0.5, degrees / 2, t * t / (degrees + t * t))
 
 
 @lru_cache(maxsize=None)
-def t_quantile(degrees: int, confidence: float = CONFIDENCE) -> float:
+def t_quantile(degrees: float, confidence: float = CONFIDENCE) -> float:
     """The t with P(|T| < t) = confidence: the half width of an interval in standard errors."""
     low, high = 0.0, 1.0
-    while t_probability(high, degrees) < confidence:
+    while t_tail(high, degrees) > 1 - confidence:
         high *= 2
     for _ in range(100):  # bisection to the last bit
         middle = (low + high) / 2
-        low, high = (middle, high) if t_probability(middle, degrees) < confidence else (low, middle)
+        low, high = (middle, high) if t_tail(middle, degrees) > 1 - confidence else (low, middle)
     return (low + high) / 2
 
 
@@ -98,3 +122,9 @@ def final_over_seeds(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
     times its own seconds, as in the tables of `qtrace run`."""
     last = convergence[convergence.frame == convergence.groupby("run").frame.transform("max")]
     return over_seeds(last.assign(relmse_x_s=last.relmse * last.elapsed_s), metric)
+
+
+def cost_points(convergence: pd.DataFrame, metric: str) -> pd.DataFrame:
+    """`final_over_seeds` with the interval of the seconds, too: `seconds_low` and `seconds_high`."""
+    seconds = final_over_seeds(convergence.assign(elapsed=convergence.elapsed_s), "elapsed")
+    return final_over_seeds(convergence, metric).assign(seconds_low=seconds.low, seconds_high=seconds.high)

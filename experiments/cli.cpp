@@ -2,6 +2,7 @@
 
 #include "engine/core/check.h"
 #include "experiments/compare.h"
+#include "experiments/config_command.h"
 #include "experiments/inspect.h"
 #include "experiments/rerun.h"
 #include "experiments/run_command.h"
@@ -35,12 +36,25 @@ int command_devices() {
   return 0;
 }
 
-int command_keys() {
+// `markdown`: the page docs/keys.md.
+int command_keys(bool markdown) {
+  const std::vector<std::string> header{"key", "type", "default", "unit", "meaning"};
   std::vector<std::vector<std::string>> rows;
   for (const KeyRow& row : list_knobs(ExperimentKeys{})) {
     rows.push_back({row.key, row.type, row.default_value, row.unit, row.help});
   }
-  fmt::print("{}", plain_table({"key", "type", "default", "unit", "meaning"}, rows));
+  if (!markdown) {
+    fmt::print("{}", plain_table(header, rows));
+    return 0;
+  }
+  for (std::vector<std::string>& row : rows) {
+    row[0] = '`' + row[0] + '`';
+    row[2] = '`' + row[2] + '`';
+  }
+  fmt::print(
+      "# Keys of experiment files\n\nMade by `qtrace keys --markdown`. Groups may be written nested or with "
+      "a dot: `{{\"rl\": {{\"update\": \"sarsa\"}}}}` or `{{\"rl.update\": \"sarsa\"}}`.\n\n{}",
+      markdown_table(header, rows, header.size()));
   return 0;
 }
 
@@ -108,6 +122,10 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* status = app.add_subcommand("status", "How far the experiments in a folder are");
   status->add_option("RESULTS", status_folder, "results, or results/<experiment>")->capture_default_str();
   CLI::App* keys = app.add_subcommand("keys", "List the keys of experiment files");
+  bool markdown = false;
+  keys->add_flag("--markdown", markdown, "as a page of documentation");
+  ConfigOptions config_options;
+  add_config_command(app, config_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -137,7 +155,8 @@ int dispatch(int argc, const char* const* argv) {
     return 0;
   }
   if (devices->parsed()) return command_devices();
-  if (keys->parsed()) return command_keys();
+  if (keys->parsed()) return command_keys(markdown);
+  if (config_options.command->parsed()) return config_command(config_options);
   return run_command(options);
 }
 

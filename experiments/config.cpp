@@ -24,6 +24,9 @@ void check_name(const std::string& name) {
         "key 'name' is \"references\", where reference images are kept; choose another");
 }
 
+// Of a snapshot in the list.
+KnobInfo one_frame(const KnobInfo& info) { return {info.name, info.unit, info.help, 1, 1e6}; }
+
 void check_snapshots(const RunConfig& config) {
   if (config.snapshots.powers_of_two) return;
   int previous = 0;
@@ -59,12 +62,17 @@ void KnobType<SnapshotPlan>::read(const Json& json, const KnobInfo& info, const 
   if (json == "powers_of_two") return;
   if (!json.is_array()) reject_value(path, json, describe(info));
   plan.powers_of_two = false;
-  const KnobInfo frame_info{info.name, info.unit, info.help, 1, 1e6};
+  const KnobInfo frame_info = one_frame(info);
   for (std::size_t i = 0; i < json.size(); ++i) {
     int frame = 0;
     KnobType<int>::read(json[i], frame_info, fmt::format("{}[{}]", path, i), frame);
     plan.frames.push_back(frame);
   }
+}
+
+Json KnobType<SnapshotPlan>::schema(const KnobInfo& info) {
+  const Json frames{{"type", "array"}, {"items", KnobType<int>::schema(one_frame(info))}};
+  return {{"anyOf", {{{"const", "powers_of_two"}}, frames}}};
 }
 
 Json KnobType<SnapshotPlan>::write(const SnapshotPlan& plan) {

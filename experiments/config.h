@@ -26,6 +26,7 @@ struct KnobType<SnapshotPlan> {
   static std::string describe(const KnobInfo&);
   static void read(const Json& json, const KnobInfo& info, const std::string& path, SnapshotPlan& plan);
   static Json write(const SnapshotPlan& plan);
+  static Json schema(const KnobInfo& info);
 };
 
 // Next event estimation with one ray to a light by power has the lowest variance per sample, or nearly, of

@@ -77,6 +77,15 @@ Json nested(const Json& raw) {
   return config;
 }
 
+// "$schema" names a JSON Schema to editors and means nothing to a run.
+void drop_schema(Json& config) {
+  if (!config.is_object() || !config.contains("$schema")) return;
+  const Json& schema = config["$schema"];
+  check(schema.is_string(), "key '$schema' is {} but must be a text: where an editor finds the schema",
+        show(schema));
+  config.erase("$schema");
+}
+
 Run make_run(const SweepPoint& point, const RunConfig& base) {
   Run run{point.id, point.cell, point.labels, base};
   try {
@@ -138,6 +147,7 @@ Experiment build(const std::string& text, const std::filesystem::path& file,
   Experiment experiment;
   experiment.file = file;
   experiment.config = nested(parse_json(text));
+  drop_schema(experiment.config);
   std::vector<Setting> settings;
   for (const std::string& set : sets) settings.push_back(parse_setting(set));
   if (experiment.config.is_object()) {

@@ -29,8 +29,10 @@ Journal::Journal(const Experiment& experiment, const SceneStore& scenes, const g
       references_(references),
       device_(device_text(device)),
       folder_(std::move(folder)) {
-  manifest_ = {
-      {"status", "running"}, {"experiment", experiment.name}, {"config_file", experiment.file.string()}};
+  manifest_ = {{"schema", kResultsSchema},
+               {"status", "running"},
+               {"experiment", experiment.name},
+               {"config_file", experiment.file.string()}};
   manifest_.update(identity_json(experiment, scenes, device));
   manifest_.update(Json{{"metrics", metrics_json()},
                         {"timing", timing_note()},

@@ -1,5 +1,6 @@
-// How each type of knob is read from JSON, written to JSON and described in words. A knob type is a
-// specialisation of KnobType with read(), write() and describe(); groups of knobs need none.
+// How each type of knob is read from JSON, written to JSON and described: in words and as a JSON Schema. A
+// knob type is a specialisation of KnobType with read(), write(), describe() and schema(); groups of knobs
+// need none.
 #pragma once
 
 #include "engine/core/check.h"
@@ -36,6 +37,20 @@ inline std::string range_text(double min, double max) {
   return "";
 }
 
+// {"type": type} with the bounds that are finite.
+inline Json number_schema(const char* type, double min, double max) {
+  Json schema{{"type", type}};
+  const auto bound = [&schema](const char* name, double value) {
+    if (!std::isfinite(value)) return;
+    // Whole ones without a point, as people write them.
+    const bool is_whole = std::floor(value) == value && std::abs(value) < 1e15;
+    schema[name] = is_whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+  };
+  bound("minimum", min);
+  bound("maximum", max);
+  return schema;
+}
+
 // Whole numbers may be written 64, 64.0 or 6.4e1.
 template <std::integral T>
 requires(!std::same_as<T, bool> && sizeof(T) <= 4)  // double holds these exactly
@@ -57,6 +72,7 @@ requires(!std::same_as<T, bool> && sizeof(T) <= 4)  // double holds these exactl
     value = static_cast<T>(number);
   }
   static Json write(const T& value) { return value; }
+  static Json schema(const KnobInfo& info) { return number_schema("integer", least(info), most(info)); }
 };
 
 template <>
@@ -67,6 +83,7 @@ struct KnobType<bool> {
     value = json.get<bool>();
   }
   static Json write(bool value) { return value; }
+  static Json schema(const KnobInfo&) { return {{"type", "boolean"}}; }
 };
 
 template <>
@@ -80,6 +97,7 @@ struct KnobType<double> {
     value = number;
   }
   static Json write(double value) { return value; }
+  static Json schema(const KnobInfo& info) { return number_schema("number", info.min, info.max); }
 };
 
 template <class T, std::size_t N>
@@ -98,6 +116,9 @@ struct KnobType<std::array<T, N>> {
     for (const T& element : value) json.push_back(KnobType<T>::write(element));
     return json;
   }
+  static Json schema(const KnobInfo& info) {
+    return {{"type", "array"}, {"items", KnobType<T>::schema(info)}, {"minItems", N}, {"maxItems", N}};
+  }
 };
 
 template <>
@@ -108,6 +129,7 @@ struct KnobType<std::string> {
     value = json.get<std::string>();
   }
   static Json write(const std::string& value) { return value; }
+  static Json schema(const KnobInfo&) { return {{"type", "string"}}; }
 };
 
 template <class T>
@@ -128,6 +150,7 @@ struct KnobType<T> {
     value = static_cast<T>(found - names.begin());
   }
   static Json write(T value) { return std::string(enum_name(value)); }
+  static Json schema(const KnobInfo&) { return {{"enum", EnumNames<T>::values}}; }
 };
 
 }  // namespace qtrace::experiments

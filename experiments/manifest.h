@@ -10,6 +10,11 @@
 
 namespace qtrace::experiments {
 
+// Of the files of results, in every manifest: raised when a column or key is removed or changes its meaning,
+// so that readers (analysis/load.py) can tell; new ones do not raise it. Results without it are from before
+// it.
+constexpr int kResultsSchema = 1;
+
 std::string utc_now();  // ISO 8601, seconds
 
 Json program_json();  // version and commit

@@ -25,6 +25,10 @@ void KnobType<PublishedTimes>::read(const Json& json, const KnobInfo& info, cons
   }
 }
 
+Json KnobType<PublishedTimes>::schema(const KnobInfo&) {
+  return {{"type", "object"}, {"additionalProperties", {{"type", "number"}, {"exclusiveMinimum", 0}}}};
+}
+
 Json KnobType<PublishedTimes>::write(const PublishedTimes& times) {
   Json json = Json::object();
   for (const auto& [cell, ms] : times.by_cell) json[cell] = ms;

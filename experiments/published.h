@@ -22,6 +22,7 @@ struct KnobType<PublishedTimes> {
   static std::string describe(const KnobInfo&);
   static void read(const Json& json, const KnobInfo& info, const std::string& path, PublishedTimes& times);
   static Json write(const PublishedTimes& times);
+  static Json schema(const KnobInfo&);
 };
 
 struct Published {

@@ -12,7 +12,8 @@ Json first_manifest(const RunJob& job, const RunRecord& record) {
   for (std::size_t i = 0; i < job.experiment.axes.size(); ++i) {
     axes[job.experiment.axes[i].name] = job.run.labels[i];
   }
-  Json manifest{{"status", "running"},
+  Json manifest{{"schema", kResultsSchema},
+                {"status", "running"},
                 {"experiment", job.experiment.name},
                 {"config_file", job.experiment.file.string()},
                 {"run", job.run.id},

@@ -148,6 +148,10 @@ void KnobType<Sweep>::read(const Json& json, const KnobInfo& info, const std::st
   }
 }
 
+Json KnobType<Sweep>::schema(const KnobInfo&) {
+  return {{"type", "array"}, {"maxItems", kMaxAxes}, {"items", {{"$ref", "#/$defs/axis"}}}};
+}
+
 Json KnobType<Sweep>::write(const Sweep& sweep) {
   Json axes = Json::array();
   for (const Axis& axis : sweep.axes) {

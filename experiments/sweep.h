@@ -32,6 +32,7 @@ struct KnobType<Sweep> {
   static std::string describe(const KnobInfo&);
   static void read(const Json& json, const KnobInfo& info, const std::string& path, Sweep& sweep);
   static Json write(const Sweep& sweep);
+  static Json schema(const KnobInfo&);  // of "#/$defs/axis", see json_schema.h
 };
 
 // One point of a sweep before it is read: which values, and what they change of the base config.

@@ -55,6 +55,19 @@ def frame_rows(method: str) -> list[dict[str, Any]]:
             for frame in range(1, SNAPSHOTS[-1] + 1)]
 
 
+def cell_row(scene: str, method: str, seeds: tuple[int, ...]) -> dict[str, Any]:
+    from analysis.statistics import estimate
+    row: dict[str, Any] = {"cell": f"{scene} / {method}", "axis:scene": scene, "axis:method": method, "scene": scene,
+                           "frames": SNAPSHOTS[-1], "runs": len(seeds), "seeds": len(seeds)}
+    for name, values in (("host_ms_median", [SECONDS[method] * (1000 + seed) for seed in seeds]),
+                         ("relmse", [relmse(method, seed, SNAPSHOTS[-1], scene) for seed in seeds])):
+        figure = estimate(values)
+        ends = (figure.low, figure.high) if len(seeds) > 1 else ("", "")
+        row |= {name: figure.mean, f"{name}_sd": np.std(values, ddof=1) if len(seeds) > 1 else "",
+                f"{name}_low": ends[0], f"{name}_high": ends[1]}
+    return row
+
+
 def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded"),
                   methods: tuple[str, ...] = tuple(METHODS), seeds: tuple[int, ...] = (1, 2, 3)) -> Path:
     """A finished experiment called 'study', as `qtrace run` leaves it."""
@@ -69,10 +82,12 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
                 summary.append({"run": run, "cell": f"{scene} / {method}", "axis:scene": scene,
                                 "axis:method": method, "axis:seed": str(seed), "scene": scene, "seed": seed,
                                 "status": "finished", "reason": "", "frames": SNAPSHOTS[-1],
+                                "host_ms_median": SECONDS[method] * (1000 + seed),
                                 "relmse": relmse(method, seed, SNAPSHOTS[-1], scene)})
                 runs.append({"run": run, "status": "finished"})
     write_csv(folder / "summary.csv", summary)
-    manifest = {"status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
+    write_csv(folder / "cells.csv", [cell_row(scene, method, seeds) for scene in scenes for method in methods])
+    manifest = {"schema": 1, "status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
     (folder / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
     return folder
 

@@ -58,7 +58,7 @@ class LoadTest(FolderTest):
     def test_without_axes_the_only_cell_is_all(self) -> None:
         self.edit("summary.csv", lambda text: text.replace("axis:scene", "x").replace("axis:method", "y"))
         self.edit("summary.csv", lambda text: "\r\n".join(text.splitlines()[:1]) + "\r\n"
-                  f'"{FIRST_RUN}",all,0,0,1,simple,1,finished,,8,0.1\r\n')
+                  f'"{FIRST_RUN}",all,0,0,1,simple,1,finished,,8,5.5,0.1\r\n')
         self.assertEqual(set(load(self.results).convergence.label), {"all"})
 
     def test_failed_runs_stay_in_the_summary_alone(self) -> None:
