@@ -1,0 +1,224 @@
+"""The rows and columns of the page's tables. Every field holds the CSV's own text beside what is shown."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable, Iterable
+
+from analysis.report import number
+from analysis.report.sweep import Row, Sweep
+
+
+@dataclass(frozen=True)
+class Field:
+    shown: str
+    value: str          # what it is sorted by: the CSV's text
+    low: str = ""       # of the 95 % interval, the CSV's text
+    high: str = ""
+    flag: bool = False  # worth a look
+
+    @property
+    def interval(self) -> str:
+        return f"[{number.short(self.low)}, {number.short(self.high)}]" if self.low else ""
+
+    @property
+    def full(self) -> str:
+        """For whoever points at it: every digit."""
+        return f"{self.value} [{self.low}, {self.high}]" if self.low else self.value
+
+
+@dataclass(frozen=True)
+class Column:
+    name: str
+    help: str
+    numeric: bool = True
+
+
+@dataclass(frozen=True)
+class Span:
+    """Where a value and its interval stand on a column's logarithmic scale, in percent of its width."""
+
+    middle: float
+    low: float
+    width: float | None  # None without an interval
+
+
+@dataclass(frozen=True)
+class Table:
+    columns: list[Column]
+    rows: list[tuple[Row, list[Field]]]
+
+    @property
+    def key(self) -> int:
+        """The column that names the row."""
+        return next((i for i, column in enumerate(self.columns) if column.name == "method"), 0)
+
+    @property
+    def scales(self) -> dict[str, Callable[[Field], Span | None]]:
+        """By column, for those that are drawn as strips."""
+        return {column.name: _scale([fields[i] for _, fields in self.rows])
+                for i, column in enumerate(self.columns) if column.name in STRIPS}
+
+
+STRIPS = ("host ms/frame", "relMSE", "relMSE × s")
+
+
+def _scale(fields: list[Field]) -> Callable[[Field], Span | None]:
+    values = [float(field.value) for field in fields if field.value and float(field.value) > 0]
+    bottom, top = (math.log(min(values)), math.log(max(values))) if values else (0.0, 0.0)
+
+    def place(text: str) -> float:
+        return min(100.0, max(0.0, 100 * (math.log(float(text)) - bottom) / (top - bottom)))
+
+    def span(field: Field) -> Span | None:
+        if not field.value or not float(field.value) > 0 or not top > bottom:
+            return None
+        if not field.low or not float(field.low) > 0:
+            return Span(round(place(field.value), 2), 0, None)
+        low = place(field.low)
+        return Span(round(place(field.value), 2), round(low, 2), round(place(field.high) - low, 2))
+
+    return span
+
+
+def plain(text: str, flag: bool = False) -> Field:
+    return Field(text or number.NOTHING, text, flag=flag)
+
+
+def figure(row: Row, name: str) -> Field:
+    mean, low, high = number.estimate(row, name)
+    return Field(number.short(mean), mean, low, high)
+
+
+def total(rows: Iterable[Row], name: str) -> int:
+    return sum(int(row[name]) for row in rows if row.get(name))
+
+
+def _key_columns(sweep: Sweep) -> list[Column]:
+    scene = [Column("scene", "", False)] if len(sweep.scenes) > 1 else []
+    return [*scene, Column("method", "The cell of the sweep: what its seeds have in common", False)]
+
+
+def _key_fields(sweep: Sweep, cell: Row) -> list[Field]:
+    scene = [plain(cell["scene"])] if len(sweep.scenes) > 1 else []
+    return [*scene, plain(cell["label"])]
+
+
+def _has(sweep: Sweep, name: str) -> bool:
+    return any(cell.get(name) for cell in sweep.cells)
+
+
+# Figures of cells.csv by column, with what stands above them; shown where some cell has one.
+FIGURES = {
+    "host_ms_median": ("host ms/frame", "Median over a run's frames by the host's clock, mean over seeds"),
+    "published": ("published ms", "What the publication that the config names has"),
+    "relmse": ("relMSE", "At the last frame, mean over seeds"),
+    "filtered_relmse": ("relMSE filtered (biased)", "Of the filtered image"),
+    "elapsed_s": ("seconds", "Host time of all frames, learning included"),
+    "relmse_x_s": ("relMSE × s", "Error times time, lower is better: what is left when both are taken together"),
+    "slope_relmse": ("slope", "Of log relMSE against log spp; −1 where errors fall as 1/spp"),
+    "fireflies_per_million": ("fireflies / M", "Samples brighter than firefly_multiple times their pixel's reference"),
+    "gpu_ms_median": ("GPU ms/frame", "As host ms/frame, by the device's clock"),
+    "mse": ("MSE", "At the last frame, mean over seeds"),
+    "mape": ("MAPE", "At the last frame, mean over seeds"),
+    "flip": ("FLIP", "At the last frame, mean over seeds"),
+}
+RATIOS = {
+    "ratio_relmse_x_s": ("× baseline", "The baseline's relMSE × s divided by this cell's; above 1, this cell is better"),
+    "ratio_time_to_relmse": ("× time to error", "The baseline's time to its own final relMSE divided by this cell's"),
+}
+
+
+def slope_is_off(cell: Row, name: str) -> str:
+    """'steep' or 'flat' where the interval of the slope lies beyond -1 by the tolerance of table.cpp; else ''."""
+    _, low, high = number.estimate(cell, name)
+    if not low:
+        return ""
+    return "steep" if float(high) < -1 - SLOPE_TOLERANCE else "flat" if float(low) > -1 + SLOPE_TOLERANCE else ""
+
+
+SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/table.cpp
+
+
+def _figure_field(sweep: Sweep, cell: Row, name: str) -> Field:
+    if name == "published":
+        value = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame", {}).get(cell["cell"], "")
+        return Field(number.short(str(value)), str(value))
+    field = figure(sweep.ratios.get(cell["cell"], {}) if name in RATIOS else cell, name)
+    off = name.startswith("slope") and slope_is_off(cell, name) != ""
+    return Field(field.shown, field.value, field.low, field.high, off)
+
+
+def main_table(sweep: Sweep) -> Table:
+    published = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame")
+    chosen = [name for name in FIGURES if _has(sweep, name) or (name == "published" and published)]
+    ratios = [name for name in RATIOS if any(row.get(name) for row in sweep.ratios.values())]
+    place = chosen.index("relmse_x_s") + 1 if "relmse_x_s" in chosen else len(chosen)
+    chosen[place:place] = ratios
+    verdicts = any(row.get("verdict") for row in sweep.summary)
+    columns = [*_key_columns(sweep), Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"),
+               *(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
+               Column("non-finite", "Samples that were NaN or infinite"),
+               Column("at floor", "Seeds whose error is within 3 times the reference's own noise"),
+               *([Column("verdict", "Against what the config expects", False)] if verdicts else [])]
+    return Table(columns, [(cell, _main_fields(sweep, cell, chosen, verdicts)) for cell in sweep.cells])
+
+
+def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> list[Field]:
+    runs = sweep.members[cell["cell"]]
+    floor, seeds = cell.get("seeds_at_reference_floor", ""), cell["seeds"]
+    bad = total(runs, "non_finite")
+    words = sorted({row["verdict"] for row in runs if row.get("verdict")})
+    few = cell.get("runs", seeds) != seeds
+    return [*_key_fields(sweep, cell), plain(cell["frames"]),
+            Field(f"{seeds} of {cell['runs']}" if few else seeds, seeds, flag=few),
+            *(_figure_field(sweep, cell, name) for name in chosen),
+            plain(str(bad), bad > 0),
+            Field("no" if floor in ("", "0") else f"{floor} of {seeds}", floor or "0", flag=floor not in ("", "0")),
+            *([plain(", ".join(words), any(word not in ("pass", "unseen") for word in words))] if verdicts else [])]
+
+
+def path_table(sweep: Sweep) -> Table:
+    """Path statistics: totals over the runs of a cell are sums of whole numbers of summary.csv."""
+    columns = [*_key_columns(sweep), Column("paths", "Of all seeds"), Column("rays", "Of all seeds"),
+               Column("mean length", "Segments per path"), Column("zero paths", "Fraction that brought nothing"),
+               Column("cell look-ups", ""), Column("fallbacks", "Look-ups where no site's normal fitted"),
+               Column("saturated", "Updates of the table beyond its range"), Column("fireflies", ""),
+               Column("clamped", "Samples scaled down by clamp_radiance (biased)"), Column("non-finite", "")]
+    rows = []
+    for cell in sweep.cells:
+        runs = sweep.members[cell["cell"]]
+        count = {name: total(runs, name) for name in ("paths", "rays", "cell_lookups", "cell_fallbacks",
+                                                      "saturated_updates", "fireflies", "clamped_samples", "non_finite")}
+        flagged = ("saturated_updates", "clamped_samples", "non_finite")
+        fields = {name: Field(f"{value:,}".replace(",", " "), str(value), flag=name in flagged and value > 0)
+                  for name, value in count.items()}
+        rows.append((cell, [*_key_fields(sweep, cell), fields["paths"], fields["rays"],
+                            figure(cell, "mean_path_length"), figure(cell, "zero_path_fraction"),
+                            fields["cell_lookups"], fields["cell_fallbacks"], fields["saturated_updates"],
+                            fields["fireflies"], fields["clamped_samples"], fields["non_finite"]]))
+    return Table(columns, rows)
+
+
+def run_table(sweep: Sweep) -> Table:
+    """Every run, those not begun as well."""
+    names = {"seed": "", "frames": "", "host_ms_median": "host ms/frame", "elapsed_s": "seconds", "relmse": "relMSE",
+             "noisy": "noisy times", "started": "started (UTC)", "reason": "reason"}
+    known = {row["run"]: row for row in sweep.summary}
+    columns = [Column("run", "", False), Column("status", "", False),
+               *(Column(shown or name, "", name not in ("started", "reason")) for name, shown in names.items())]
+    rows = []
+    for planned in sweep.planned:
+        run = str(planned.get("run", ""))
+        row = known.get(run, {})
+        status = row.get("status") or str(planned.get("status", "not begun"))
+        fields = [plain(run), plain(status, status != "finished")]
+        for name in names:
+            text = row.get(name, "")
+            is_figure = name in ("host_ms_median", "elapsed_s", "relmse")
+            shown = {"0": "no", "1": "yes"}.get(text, text) if name == "noisy" else text
+            fields.append(Field(number.short(text) if is_figure else shown or number.NOTHING, text,
+                                flag=name == "noisy" and text == "1"))
+        rows.append((row, fields))
+    return Table(columns, rows)
