@@ -7,15 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
+import matplotlib
 from markupsafe import Markup
 
 from analysis import style
-from analysis.report import curves, findings, table
+from analysis.report import curves, findings, number, pictures, table
+from analysis.report.pictures import Gallery
 from analysis.report.sweep import Sweep
 
 ASSETS = Path(__file__).parent / "assets"
-STYLES = ["base.css", "findings.css", "table.css", "plot.css"]
-PROGRAMS = ["tip.js", "theme.js", "sort.js", "plot.js", "points.js", "legend.js", "curves.js"]
+STYLES = ["base.css", "findings.css", "table.css", "plot.css", "viewer.css"]
+PROGRAMS = ["tip.js", "theme.js", "sort.js", "plot.js", "points.js", "legend.js", "curves.js", "halves.js", "pane.js",
+            "readout.js", "viewer.js", "viewer_input.js"]
 
 
 def _joined(names: list[str]) -> str:
@@ -33,13 +36,30 @@ def _as_script(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _data(sweep: Sweep) -> dict[str, Any]:
+def _magma() -> list[list[int]]:
+    """The colours of the error maps, dark for small; even in lightness, so that no colour vision is needed."""
+    return [[round(255 * part) for part in colour] for colour in matplotlib.colormaps["magma"].colors]
+
+
+def _image_note(found: list[Gallery]) -> str:
+    used = sum(p.size[0] * p.size[1] for gallery in found for p in gallery.pictures) * pictures.BYTES_PER_PIXEL / 1e6
+    factor = max((gallery.factor for gallery in found), default=1)
+    note = "Images are shown at their full size" if factor == 1 else (
+        f"Images are reduced: each pixel is the mean of {factor} × {factor}, so errors of single pixels are smaller than the "
+        "renders' and only the tables have the true ones")
+    note += f". They take {number.short(str(used))} MB; at most {pictures.BOUND_MB} MB are put into a page."
+    clipped = sum(p.clipped for gallery in found for p in gallery.pictures)
+    return note + (f" {clipped} values beyond 65504, the largest half float, are cut to it." if clipped else "")
+
+
+def _data(sweep: Sweep, found: list[Gallery]) -> dict[str, Any]:
     """What the page's programs read."""
     points = curves.curves(sweep)
     labels = list(dict.fromkeys(cell["label"] for cell in sweep.cells))
     return {"scenes": sweep.scenes, "labels": labels,
             "cells": [{"cell": cell["cell"], "scene": cell["scene"], "label": cell["label"]} for cell in sweep.cells],
-            "metrics": curves.metric_names(list(points)), "curves": points, "floors": curves.floors(sweep)}
+            "metrics": curves.metric_names(list(points)), "curves": points, "floors": curves.floors(sweep),
+            "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma()}
 
 
 def _lead(sweep: Sweep) -> str:
@@ -53,14 +73,18 @@ def _lead(sweep: Sweep) -> str:
 def render(sweep: Sweep) -> str:
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(ASSETS), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    found = findings.findings(sweep)
+    images = pictures.galleries(sweep)
+    found = findings.findings(sweep)  # after all has been read, as what could not be is among them
     counts = {level: sum(finding.level == level for finding in found) for level in ("failed", "flagged", "noted")}
     sections = {"findings": "What to know first"}
     main = table.main_table(sweep)
     if main.rows:
         sections |= {"table": "Time and error", "curves": "Convergence"}
+    if images:
+        sections |= {"images": "Images"}
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
     return environment.get_template("page.html").render(
         sweep=sweep, lead=_lead(sweep), found=found, counts=counts, sections=sections, main_table=main,
         css=Markup(_joined(STYLES)), js=Markup(program), colours=_colours(),
-        data=Markup(_as_script(_data(sweep)))).lstrip()
+        galleries=images, image_note=_image_note(images),
+        magma=_magma(), data=Markup(_as_script(_data(sweep, images)))).lstrip()
