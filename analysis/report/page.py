@@ -11,14 +11,15 @@ import matplotlib
 from markupsafe import Markup
 
 from analysis import style
-from analysis.report import curves, findings, number, pictures, table
+from analysis.convergence_figure import METRICS
+from analysis.report import curves, findings, learned, number, pictures, provenance, table
 from analysis.report.pictures import Gallery
-from analysis.report.sweep import Sweep
+from analysis.report.sweep import Row, Sweep
 
 ASSETS = Path(__file__).parent / "assets"
 STYLES = ["base.css", "findings.css", "table.css", "plot.css", "viewer.css"]
-PROGRAMS = ["tip.js", "theme.js", "sort.js", "plot.js", "points.js", "legend.js", "curves.js", "halves.js", "pane.js",
-            "readout.js", "viewer.js", "viewer_input.js"]
+PROGRAMS = ["tip.js", "theme.js", "sort.js", "plot.js", "points.js", "legend.js", "curves.js", "speed.js", "halves.js",
+            "pane.js", "readout.js", "fireflies.js", "viewer.js", "viewer_input.js"]
 
 
 def _joined(names: list[str]) -> str:
@@ -52,12 +53,25 @@ def _image_note(found: list[Gallery]) -> str:
     return note + (f" {clipped} values beyond 65504, the largest half float, are cut to it." if clipped else "")
 
 
+# Of cells.csv, for the plot of speed against error.
+SPEED_AXES = {"x": {"elapsed_s": "seconds, learning included", "host_ms_median": "host ms/frame", "gpu_ms_median": "GPU ms/frame"},
+              "y": {metric: label for metric, label in curves.metric_names(list(METRICS)).items()}}
+
+
+def _cell_data(cell: Row, figures: list[str]) -> dict[str, Any]:
+    return {"cell": cell["cell"], "scene": cell["scene"], "label": cell["label"],
+            "floor": int(cell.get("seeds_at_reference_floor") not in (None, "", "0")),
+            "figures": {name: number.estimate(cell, name) for name in figures if cell.get(name)}}
+
+
 def _data(sweep: Sweep, found: list[Gallery]) -> dict[str, Any]:
     """What the page's programs read."""
     points = curves.curves(sweep)
     labels = list(dict.fromkeys(cell["label"] for cell in sweep.cells))
-    return {"scenes": sweep.scenes, "labels": labels,
-            "cells": [{"cell": cell["cell"], "scene": cell["scene"], "label": cell["label"]} for cell in sweep.cells],
+    axes = {axis: {key: {"name": name} for key, name in names.items() if any(cell.get(key) for cell in sweep.cells)}
+            for axis, names in SPEED_AXES.items()}
+    return {"scenes": sweep.scenes, "labels": labels, "figures": axes,
+            "cells": [_cell_data(cell, [*axes["x"], *axes["y"]]) for cell in sweep.cells],
             "metrics": curves.metric_names(list(points)), "curves": points, "floors": curves.floors(sweep),
             "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma()}
 
@@ -70,21 +84,27 @@ def _lead(sweep: Sweep) -> str:
     return f"{text}; ended {str(ended).replace('T', ' ').rstrip('Z')} UTC" if ended else text
 
 
+def _sections(has_cells: bool, has_images: bool, has_learned: bool) -> dict[str, str]:
+    """Titles by id, in the order of the page."""
+    titles = {"findings": ("What to know first", True), "table": ("Time and error", has_cells),
+              "curves": ("Convergence", has_cells), "speed": ("Speed against error", has_cells),
+              "images": ("Images", has_images), "paths": ("Path statistics", has_cells),
+              "learned": ("Learned tables", has_learned), "runs": ("All runs", True), "provenance": ("Provenance", True)}
+    return {key: title for key, (title, is_there) in titles.items() if is_there}
+
+
 def render(sweep: Sweep) -> str:
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(ASSETS), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     images = pictures.galleries(sweep)
+    inspections, learned_note = learned.inspections(sweep)
     found = findings.findings(sweep)  # after all has been read, as what could not be is among them
     counts = {level: sum(finding.level == level for finding in found) for level in ("failed", "flagged", "noted")}
-    sections = {"findings": "What to know first"}
-    main = table.main_table(sweep)
-    if main.rows:
-        sections |= {"table": "Time and error", "curves": "Convergence"}
-    if images:
-        sections |= {"images": "Images"}
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
     return environment.get_template("page.html").render(
-        sweep=sweep, lead=_lead(sweep), found=found, counts=counts, sections=sections, main_table=main,
-        css=Markup(_joined(STYLES)), js=Markup(program), colours=_colours(),
-        galleries=images, image_note=_image_note(images),
-        magma=_magma(), data=Markup(_as_script(_data(sweep, images)))).lstrip()
+        sweep=sweep, lead=_lead(sweep), found=found, counts=counts, main_table=table.main_table(sweep),
+        sections=_sections(bool(sweep.cells), bool(images), bool(inspections)), galleries=images,
+        image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), inspections=inspections,
+        learned_note=learned_note, run_table=table.run_table(sweep), facts=provenance.facts(sweep),
+        formulas=provenance.formulas(sweep), config=provenance.config_text(sweep), colours=_colours(),
+        css=Markup(_joined(STYLES)), js=Markup(program), data=Markup(_as_script(_data(sweep, images)))).lstrip()

@@ -86,7 +86,8 @@ def _snapshot(sweep: Sweep, cell: Row) -> Picture | None:
         if images:
             frame = int(images[-1].stem[-6:])
             fireflies = (sweep.manifests.get(run["run"], {}).get("brightest_fireflies") or [])[:MAX_FIREFLIES]
-            return Picture(cell["cell"], cell["label"], f"{run['run']}, frame {frame}", images[-1], fireflies)
+            return Picture(cell["cell"], cell["label"], f"{run['run']}, frame {frame}", images[-1],
+                           fireflies=fireflies)
     return None
 
 
@@ -136,10 +137,10 @@ def _fill(picture: Picture, size: Size, factor: int) -> None:
     picture.packed, picture.clipped = pack(reduced)
 
 
-def galleries(sweep: Sweep, bound_mb: float = BOUND_MB) -> list[Gallery]:
+def galleries(sweep: Sweep) -> list[Gallery]:
     """Images that cannot be read are gaps."""
     groups = _groups(sweep)
-    factor = reduction(sum(size[0] * size[1] * len(pictures) for (_, size), pictures in groups.items()), bound_mb)
+    factor = reduction(sum(size[0] * size[1] * len(pictures) for (_, size), pictures in groups.items()), BOUND_MB)
     several = {scene for scene, _ in groups if sum(scene == other for other, _ in groups) > 1}
     result = []
     for (scene, size), pictures in groups.items():

@@ -157,9 +157,8 @@ def main_table(sweep: Sweep) -> Table:
     place = chosen.index("relmse_x_s") + 1 if "relmse_x_s" in chosen else len(chosen)
     chosen[place:place] = ratios
     verdicts = any(row.get("verdict") for row in sweep.summary)
-    columns = [*_key_columns(sweep), Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"),
-               *(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
-               Column("non-finite", "Samples that were NaN or infinite"),
+    columns = [*_key_columns(sweep), *(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
+               Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"), Column("non-finite", "Samples that were NaN or infinite"),
                Column("at floor", "Seeds whose error is within 3 times the reference's own noise"),
                *([Column("verdict", "Against what the config expects", False)] if verdicts else [])]
     return Table(columns, [(cell, _main_fields(sweep, cell, chosen, verdicts)) for cell in sweep.cells])
@@ -171,10 +170,8 @@ def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> 
     bad = total(runs, "non_finite")
     words = sorted({row["verdict"] for row in runs if row.get("verdict")})
     few = cell.get("runs", seeds) != seeds
-    return [*_key_fields(sweep, cell), plain(cell["frames"]),
-            Field(f"{seeds} of {cell['runs']}" if few else seeds, seeds, flag=few),
-            *(_figure_field(sweep, cell, name) for name in chosen),
-            plain(str(bad), bad > 0),
+    return [*_key_fields(sweep, cell), *(_figure_field(sweep, cell, name) for name in chosen), plain(cell["frames"]),
+            Field(f"{seeds} of {cell['runs']}" if few else seeds, seeds, flag=few), plain(str(bad), bad > 0),
             Field("no" if floor in ("", "0") else f"{floor} of {seeds}", floor or "0", flag=floor not in ("", "0")),
             *([plain(", ".join(words), any(word not in ("pass", "unseen") for word in words))] if verdicts else [])]
 
@@ -220,5 +217,5 @@ def run_table(sweep: Sweep) -> Table:
             shown = {"0": "no", "1": "yes"}.get(text, text) if name == "noisy" else text
             fields.append(Field(number.short(text) if is_figure else shown or number.NOTHING, text,
                                 flag=name == "noisy" and text == "1"))
-        rows.append((row, fields))
+        rows.append(({"cell": row.get("cell", "")}, fields))
     return Table(columns, rows)

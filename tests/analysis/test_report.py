@@ -33,7 +33,7 @@ class Page(html.parser.HTMLParser):
         found = {key: value or "" for key, value in attributes}
         self.loaded += [found[key] for key in ("src", "href") if not found.get(key, "#").startswith(("#", "data:"))]
         if tag == "table":
-            self._table = found["id"]
+            self._table = found.get("id", "")
             self.tables[self._table] = []
         elif tag == "tr" and "data-key" in found:
             self.tables[self._table].append([])

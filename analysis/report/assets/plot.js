@@ -24,7 +24,8 @@ function look(index) {
 function logTicks(low, high, base, room) {
   const log = value => Math.log(value) / Math.log(base);
   const first = Math.floor(log(low)), last = Math.ceil(log(high));
-  const factors = base === 10 && high / low < 300 ? [1, 2, 5] : [1];
+  const fine = high / low < 12 ? [1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9] : high / low < 300 ? [1, 2, 5] : [1];
+  const factors = base === 10 ? fine : [1];
   let ticks = [];
   for (let power = first; power <= last; ++power) for (const f of factors) ticks.push(f * base ** power);
   ticks = ticks.filter(tick => tick >= low * 0.999 && tick <= high * 1.001);
@@ -117,6 +118,7 @@ class Plot {
       if (!one.line && p.low > 0) shape("path", {class: "whisker", stroke: fill, d: `M${at[0]} ${this.py(p.low)}V${this.py(p.high)}`}, group);
       if (!one.line && p.xLow > 0) shape("path", {class: "whisker", stroke: fill, d: `M${this.px(p.xLow)} ${at[1]}H${this.px(p.xHigh)}`}, group);
       shape("path", {class: "marker", d: one.look.outline, transform: `translate(${at}) scale(${one.line ? 0.8 : 1.15})`, stroke: fill, fill: p.hollow ? "var(--card)" : fill}, group);
+      if (p.text) shape("text", {x: at[0], y: at[1] - 10, "text-anchor": "middle"}, group, p.text);
     }
   }
 

@@ -51,7 +51,7 @@ class Viewer {
     this.panes = indices.map((_, i) => new Pane(this, i ? "second" : "first"));
     for (const pane of this.panes) pane.root.style.aspectRatio = `${this.width} / ${this.height}`;
     const across = this.mode === "side" ? 2 : 1;
-    this.stage.style.maxWidth = this.mode === "all" ? "" : `calc(76vh * ${across * this.width / this.height})`;
+    this.stage.style.maxWidth = this.mode === "all" ? "" : `calc(72vh * ${across * this.width / this.height})`;
     this.stage.replaceChildren(...this.panes.map(pane => pane.root), ...this.mode === "wipe" ? [this.divider] : []);
     this.front = 1;
     this.repaint();
@@ -63,10 +63,11 @@ class Viewer {
     this.find("first").value = this.chosen[0];
     this.find("second").value = this.chosen[1];
     this.find("sources").textContent = this.chosen.map((index, i) => `${"AB"[i]}: ${this.gallery.pictures[index].source}`).join(". ");
-    this.find("firefly-count").textContent = this.chosen.map(index => this.gallery.pictures[index].fireflies.length).join(" and ");
+    this.find("firefly-count").textContent = this.chosen.map(index => this.gallery.pictures[index].fireflies.length).join(" in A, ") + " in B";
     this.find("error-scale").hidden = this.show !== "error";
     this.place();
     this.readout.update();
+    listFireflies(this);
   }
 
   place() {

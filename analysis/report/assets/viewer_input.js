@@ -81,6 +81,7 @@ function viewerControls(viewer) {
   on("wipe", "input", event => viewer.set({wipe: Number(event.target.value)}));
   on("flip-now", "click", () => viewer.flip());
   on("fireflies", "change", event => viewer.set({showsFireflies: event.target.checked}));
+  on("firefly-list", "toggle", () => listFireflies(viewer));
   on("zoom-in", "click", () => viewer.zoomAbout(viewer.centre, 2));
   on("zoom-out", "click", () => viewer.zoomAbout(viewer.centre, 0.5));
   on("zoom-fit", "click", () => { viewer.fit(); viewer.place(); });
