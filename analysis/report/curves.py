@@ -15,12 +15,12 @@ from analysis.statistics import over_seeds
 Point = list[Any]  # frame, spp, seconds, mean, low, high, seeds, 1 if a seed is at the reference's floor
 
 
-def _exact(text: str) -> float | None:
-    return float(text) if text else None
-
-
 def _finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
+
+
+def _exact(text: str) -> float | None:
+    return _finite(float(text)) if text else None
 
 
 def _points(points: pd.DataFrame, cell: Row, metric: str) -> list[Point]:

@@ -17,6 +17,11 @@ class Inspection:
     png: str  # base64
 
 
+def saved_tables(sweep: Sweep) -> list[str]:
+    """Runs that have left a table to inspect."""
+    return [row["run"] for row in sweep.summary if next((sweep.folder / row["run"]).glob("q_values_*.npy"), None)]
+
+
 def inspections(sweep: Sweep) -> tuple[list[Inspection], str]:
     """And one sentence about those that were left out, or an empty one."""
     files = [(row["run"], sweep.folder / row["run"] / "inspect" / "inspect.png") for row in sweep.summary]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -31,9 +33,18 @@ def _colours() -> list[str]:
     return [f"light-dark({colour}, #FFFFFF)" if colour == "#000000" else colour for colour in style.COLOURS]
 
 
+def _without_nan(value: Any) -> Any:
+    """JSON has no number that is not finite: null instead."""
+    if isinstance(value, dict):
+        return {key: _without_nan(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_without_nan(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
 def _as_script(value: Any) -> str:
     """JSON that no end tag inside can end."""
-    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(_without_nan(value), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
@@ -80,8 +91,19 @@ def _lead(sweep: Sweep) -> str:
     device = (sweep.manifest.get("device") or {}).get("renderer", "unknown device")
     finished = sum(row["status"] == "finished" for row in sweep.summary)
     text = f"{finished} of {len(sweep.planned)} runs finished, {len(sweep.cells)} cells, on {device}"
+    status = sweep.manifest.get("status", "finished")
+    text += f"; status {status}" if status != "finished" else ""
     ended = sweep.manifest.get("ended")
     return f"{text}; ended {str(ended).replace('T', ' ').rstrip('Z')} UTC" if ended else text
+
+
+def _published_ratios(sweep: Sweep) -> list[str]:
+    """What table.md says of the publication's ratios, word by word."""
+    try:
+        lines = (sweep.folder / "table.md").read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return []
+    return [line[2:] for line in lines if re.match(r"- .+ over .+: .+ × the host time per frame", line)]
 
 
 def _sections(has_cells: bool, has_images: bool, has_learned: bool) -> dict[str, str]:
@@ -89,7 +111,7 @@ def _sections(has_cells: bool, has_images: bool, has_learned: bool) -> dict[str,
     titles = {"findings": ("What to know first", True), "table": ("Time and error", has_cells),
               "curves": ("Convergence", has_cells), "speed": ("Speed against error", has_cells),
               "images": ("Images", has_images), "paths": ("Path statistics", has_cells),
-              "learned": ("Learned tables", has_learned), "runs": ("All runs", True), "provenance": ("Provenance", True)}
+              "learned": ("Cells and hemispheres", has_learned), "runs": ("All runs", True), "provenance": ("Provenance", True)}
     return {key: title for key, (title, is_there) in titles.items() if is_there}
 
 
@@ -101,10 +123,13 @@ def render(sweep: Sweep) -> str:
     found = findings.findings(sweep)  # after all has been read, as what could not be is among them
     counts = {level: sum(finding.level == level for finding in found) for level in ("failed", "flagged", "noted")}
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
+    tables = learned.saved_tables(sweep)
     return environment.get_template("page.html").render(
         sweep=sweep, lead=_lead(sweep), found=found, counts=counts, main_table=table.main_table(sweep),
-        sections=_sections(bool(sweep.cells), bool(images), bool(inspections)), galleries=images,
+        sections=_sections(bool(sweep.cells), bool(images), bool(inspections or tables)), galleries=images,
         image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), inspections=inspections,
-        learned_note=learned_note, run_table=table.run_table(sweep), facts=provenance.facts(sweep),
+        learned_note=learned_note, saved_tables=tables, published_ratios=_published_ratios(sweep),
+        ratio_table=table.ratio_table(sweep), one_seed=all(cell["seeds"] == "1" for cell in sweep.cells),
+        run_table=table.run_table(sweep), facts=provenance.facts(sweep),
         formulas=provenance.formulas(sweep), config=provenance.config_text(sweep), colours=_colours(),
         css=Markup(_joined(STYLES)), js=Markup(program), data=Markup(_as_script(_data(sweep, images)))).lstrip()

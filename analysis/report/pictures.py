@@ -100,7 +100,7 @@ def _size(manifest: dict[str, Any]) -> Size:
 def _groups(sweep: Sweep) -> dict[tuple[str, Size], list[Picture]]:
     """By scene and size, in the order of the cells."""
     groups: dict[tuple[str, Size], list[Picture]] = {}
-    for cell in sweep.cells:
+    for cell in (cell for cell in sweep.cells if sweep.members[cell["cell"]]):
         manifest = sweep.run_manifest(cell["cell"])
         picture = _snapshot(sweep, cell)
         if picture is None or _size(manifest) == (0, 0):

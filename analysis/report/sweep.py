@@ -46,12 +46,13 @@ class Sweep:
 
 
 def read_rows(file: Path, needed: list[str]) -> list[Row]:
-    """All fields as their text."""
+    """All fields as their text; that numbers are numbers is checked."""
+    read_csv(file, needed)
     try:
         with file.open(encoding="utf-8", newline="") as stream:
             header = next(csv.reader(stream), [])
-    except (OSError, ValueError, csv.Error):
-        header = []  # read_csv says what is wrong
+    except (OSError, ValueError, csv.Error) as error:
+        raise LoadError(f"{file}: cannot be read as CSV: {error}") from error
     return read_csv(file, needed, labels=header).to_dict("records")
 
 
@@ -62,7 +63,8 @@ def _label(rows: list[Row]) -> None:
 
 
 def _members(rows: list[Row]) -> list[Row]:
-    """The finished seeds of a cell; where none is finished, the partial ones that came furthest. As cells.h has it."""
+    """The finished seeds of a cell; where none is finished, the partial ones that came furthest. As cells.cpp has it."""
+    rows = [row for row in rows if row.get("relmse")]
     finished = [row for row in rows if row["status"] == "finished"]
     if finished:
         return finished

@@ -1,94 +1,12 @@
-"""The rows and columns of the page's tables. Every field holds the CSV's own text beside what is shown."""
+"""The rows and columns of the page's tables."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Callable, Iterable
+from typing import Iterable
 
 from analysis.report import number
+from analysis.report.fields import Column, Field, Table, figure, plain
 from analysis.report.sweep import Row, Sweep
-
-
-@dataclass(frozen=True)
-class Field:
-    shown: str
-    value: str          # what it is sorted by: the CSV's text
-    low: str = ""       # of the 95 % interval, the CSV's text
-    high: str = ""
-    flag: bool = False  # worth a look
-
-    @property
-    def interval(self) -> str:
-        return f"[{number.short(self.low)}, {number.short(self.high)}]" if self.low else ""
-
-    @property
-    def full(self) -> str:
-        """For whoever points at it: every digit."""
-        return f"{self.value} [{self.low}, {self.high}]" if self.low else self.value
-
-
-@dataclass(frozen=True)
-class Column:
-    name: str
-    help: str
-    numeric: bool = True
-
-
-@dataclass(frozen=True)
-class Span:
-    """Where a value and its interval stand on a column's logarithmic scale, in percent of its width."""
-
-    middle: float
-    low: float
-    width: float | None  # None without an interval
-
-
-@dataclass(frozen=True)
-class Table:
-    columns: list[Column]
-    rows: list[tuple[Row, list[Field]]]
-
-    @property
-    def key(self) -> int:
-        """The column that names the row."""
-        return next((i for i, column in enumerate(self.columns) if column.name == "method"), 0)
-
-    @property
-    def scales(self) -> dict[str, Callable[[Field], Span | None]]:
-        """By column, for those that are drawn as strips."""
-        return {column.name: _scale([fields[i] for _, fields in self.rows])
-                for i, column in enumerate(self.columns) if column.name in STRIPS}
-
-
-STRIPS = ("host ms/frame", "relMSE", "relMSE × s")
-
-
-def _scale(fields: list[Field]) -> Callable[[Field], Span | None]:
-    values = [float(field.value) for field in fields if field.value and float(field.value) > 0]
-    bottom, top = (math.log(min(values)), math.log(max(values))) if values else (0.0, 0.0)
-
-    def place(text: str) -> float:
-        return min(100.0, max(0.0, 100 * (math.log(float(text)) - bottom) / (top - bottom)))
-
-    def span(field: Field) -> Span | None:
-        if not field.value or not float(field.value) > 0 or not top > bottom:
-            return None
-        if not field.low or not float(field.low) > 0:
-            return Span(round(place(field.value), 2), 0, None)
-        low = place(field.low)
-        return Span(round(place(field.value), 2), round(low, 2), round(place(field.high) - low, 2))
-
-    return span
-
-
-def plain(text: str, flag: bool = False) -> Field:
-    return Field(text or number.NOTHING, text, flag=flag)
-
-
-def figure(row: Row, name: str) -> Field:
-    mean, low, high = number.estimate(row, name)
-    return Field(number.short(mean), mean, low, high)
 
 
 def total(rows: Iterable[Row], name: str) -> int:
@@ -125,9 +43,12 @@ FIGURES = {
     "flip": ("FLIP", "At the last frame, mean over seeds"),
 }
 RATIOS = {
-    "ratio_relmse_x_s": ("× baseline", "The baseline's relMSE × s divided by this cell's; above 1, this cell is better"),
-    "ratio_time_to_relmse": ("× time to error", "The baseline's time to its own final relMSE divided by this cell's"),
+    "ratio_relmse_x_s": ("efficiency gain", "The baseline's relMSE × s divided by this cell's; above 1, this cell is better than the baseline"),
+    "ratio_time_to_relmse": ("time gain", "The baseline's time to its own final relMSE divided by this cell's; – where it was never reached"),
 }
+
+
+SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/table.cpp
 
 
 def slope_is_off(cell: Row, name: str) -> str:
@@ -138,16 +59,33 @@ def slope_is_off(cell: Row, name: str) -> str:
     return "steep" if float(high) < -1 - SLOPE_TOLERANCE else "flat" if float(low) > -1 + SLOPE_TOLERANCE else ""
 
 
-SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/table.cpp
-
-
 def _figure_field(sweep: Sweep, cell: Row, name: str) -> Field:
     if name == "published":
         value = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame", {}).get(cell["cell"], "")
         return Field(number.short(str(value)), str(value))
     field = figure(sweep.ratios.get(cell["cell"], {}) if name in RATIOS else cell, name)
     off = name.startswith("slope") and slope_is_off(cell, name) != ""
-    return Field(field.shown, field.value, field.low, field.high, off)
+    return Field(field.shown, field.value, field.low, field.high, off, _spread(sweep, cell, name))
+
+
+def _spread(sweep: Sweep, cell: Row, name: str) -> str:
+    """What a run's own frames spread over, where there is only one run to tell."""
+    runs = sweep.members[cell["cell"]]
+    clock = name.removesuffix("_ms_median")
+    low, high = (runs[0].get(f"{clock}_ms_{end}", "") for end in ("p10", "p90")) if len(runs) == 1 else ("", "")
+    return f"10th to 90th percentile of its frames: {low} to {high} ms" if name.endswith("_ms_median") and low else ""
+
+
+def ratio_table(sweep: Sweep) -> Table:
+    """All of ratios.csv that has an interval beside it, and its baselines."""
+    names = [name for name in next(iter(sweep.ratios.values()), {}) if f"{name}_low" in next(iter(sweep.ratios.values()))]
+    shown = [name for name in names if any(row[name] for row in sweep.ratios.values())]
+    cells = [cell for cell in sweep.cells if cell["cell"] in sweep.ratios]
+    columns = [*_key_columns(sweep), Column("baseline", "", False),
+               *(Column(name.removeprefix("ratio_").replace("_", " "), name) for name in shown)]
+    rows = [sweep.ratios[cell["cell"]] for cell in cells]
+    return Table(columns, [(cell, [*_key_fields(sweep, cell), plain(row["baseline"]), *(figure(row, name) for name in shown)])
+                           for cell, row in zip(cells, rows)])
 
 
 def main_table(sweep: Sweep) -> Table:

@@ -24,6 +24,8 @@ def read_fields(file: Path) -> list[dict[str, str]]:
 
 def _figures(name: str, values: list[float]) -> dict[str, Any]:
     found = estimate(values)
+    if found.count == 1:
+        return {name: found.mean, f"{name}_sd": "", f"{name}_low": "", f"{name}_high": ""}
     return {name: found.mean, f"{name}_sd": float(np.std(values)), f"{name}_low": found.low, f"{name}_high": found.high}
 
 

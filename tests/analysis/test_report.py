@@ -1,5 +1,6 @@
 """The page about a results folder: its figures are those of the files, names are text, what is missing is said."""
 
+import base64
 import html.parser
 import json
 import re
@@ -22,6 +23,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
+        self.source = text
         self.tables: dict[str, list[list[dict[str, str]]]] = {}
         self.words: list[str] = []
         self.loaded: list[str] = []
@@ -39,11 +41,11 @@ class Page(html.parser.HTMLParser):
             self.tables[self._table].append([])
         elif tag in ("td", "th") and "data-value" in found:
             self.tables[self._table][-1].append(found)
-        elif tag == "script":
-            self._script = found.get("id", "program")
+        elif tag in ("script", "style"):
+            self._script = found.get("id", tag)
 
     def handle_endtag(self, tag: str) -> None:
-        if tag == "script":
+        if tag in ("script", "style"):
             self._script = ""
 
     def handle_data(self, data: str) -> None:
@@ -104,6 +106,45 @@ class FiguresTest(ReportTest):
                          ["12.4", "0.00577", "1620", "–", "−0.986", "1e−09"])
 
 
+    def test_ratios_stand_beside_and_below(self) -> None:
+        write_csv(self.results / "ratios.csv", [
+            {"cell": "simple / RL", "baseline": "simple / BSDF", "scene": "simple", "ratio_relmse_x_s": "1.23456789012",
+             "ratio_relmse_x_s_low": 1.1, "ratio_relmse_x_s_high": 1.3, "target_mse": 0.1, "ratio_time_to_relmse": "",
+             "ratio_time_to_relmse_low": "", "ratio_time_to_relmse_high": ""}])
+        tables = self.page().tables
+        self.assertEqual([field["data-value"] for field in tables["ratios-table"][0]],
+                         ["simple", "RL", "simple / BSDF", "1.23456789012"])
+        self.assertEqual([field["data-value"] == "1.23456789012" for row in tables["cells-table"] for field in row].count(True), 1)
+
+    def test_path_statistics_are_sums_of_summary_csv(self) -> None:
+        values = [field["data-value"] for field in self.page().tables["paths-table"][0]]
+        self.assertEqual(values, ["simple", "NEE, two rays", "3000", "12963", "2.5", "0.1234567891234", "150", "6", "0", "3",
+                                  "0", "0"])
+
+    def test_a_single_seed_has_the_spread_of_its_frames(self) -> None:
+        rows = [{**row, "host_ms_p10": "490.125", "host_ms_p90": "510.5"}
+                for row in read_fields(self.results / "summary.csv") if row["seed"] == "1"]
+        write_csv(self.results / "summary.csv", rows)
+        write_cells(self.results)
+        page = self.page()
+        self.assertIn("One seed per cell, so there are no intervals", page.text)
+        tips = [field.get("data-tip", "") for field in page.tables["cells-table"][0]]
+        self.assertIn(f"{rows[0]['host_ms_median']}\n10th to 90th percentile of its frames: 490.125 to 510.5 ms", tips)
+
+    def test_the_ratios_that_were_published_are_those_of_the_table(self) -> None:
+        line = "simple / NEE over simple / RL: 1.81 × the host time per frame (published: 2.30 ×); 0.0177 × the relMSE × s"
+        (self.results / "table.md").write_text(f"# study\n\n- {line}\n- something else\n", encoding="utf-8")
+        self.assertIn(line, self.page().text)
+
+    def test_figures_that_are_not_finite_are_shown_and_not_drawn(self) -> None:
+        rows = read_fields(self.results / "cells.csv")
+        rows[0].update(relmse="nan", relmse_low="", relmse_high="", elapsed_s="inf")
+        write_csv(self.results / "cells.csv", rows)
+        page = self.page()
+        self.assertEqual(page.data["curves"]["relmse"][rows[0]["cell"]][-1][2:4], [None, None])
+        self.assertEqual(page.tables["cells-table"][0][3]["data-value"], "nan")
+
+
 class FindingsTest(ReportTest):
     def test_nothing_wrong(self) -> None:
         self.assertIn("Nothing failed and nothing is flagged: all 18 runs are finished.", self.page().text)
@@ -162,6 +203,20 @@ class NamesTest(ReportTest):
         self.assertEqual(page.tables["cells-table"][1][1]["data-value"], odd)
 
 
+class LearnedTest(ReportTest):
+    def test_pictures_of_inspect(self) -> None:
+        (self.results / RUN / "inspect").mkdir()
+        (self.results / RUN / "inspect" / "inspect.png").write_bytes(b"a picture")
+        page = self.page()
+        self.assertIn(base64.b64encode(b"a picture").decode(), page.source)
+        self.assertIn("Cells and hemispheres", page.text)
+
+    def test_tables_that_nobody_looked_at(self) -> None:
+        self.assertNotIn("Cells and hemispheres", self.page().text)
+        (self.results / RUN / "q_values_000008.npy").touch()
+        self.assertIn(f"1 run has saved the table, and none has been looked at: ./dev inspect study/{RUN}", self.page().text)
+
+
 class MissingTest(ReportTest):
     def test_lost_files_of_runs_are_gaps_that_the_page_names(self) -> None:
         (self.results / RUN / "convergence.csv").unlink()
@@ -182,6 +237,16 @@ class MissingTest(ReportTest):
             code, out, err = self.run_script(report_page.main, folder)
             self.assertEqual((code, out), (1, ""))
             self.assertRegex(err, f"^error: .*{sentence}[^\n]*\n$")
+
+    def test_a_sweep_that_goes_on(self) -> None:
+        self.edit("manifest.json", lambda text: text.replace('"status": "finished", "experiment"', '"status": "running", "experiment"'))
+        self.assertIn("18 of 18 runs finished, 6 cells, on a device; status running", self.page().text)
+
+    def test_a_word_among_numbers(self) -> None:
+        self.edit("summary.csv", lambda text: text.replace(",8,", ",eight,", 1))
+        code, out, err = self.run_script(report_page.main, self.results)
+        self.assertEqual((code, out), (1, ""))
+        self.assertRegex(err, r"^error: .*summary.csv: column 'frames' holds something that is not a number: .*'eight'\n$")
 
     def test_page_elsewhere(self) -> None:
         self.page("--out", self.folder / "new" / "page.html")

@@ -3,9 +3,11 @@
 import unittest
 from pathlib import Path
 
+import numpy as np
 from browser import BrowserTest  # first: it puts the others on the path
 from report_results import FIREFLY, fail_run, picture, read_fields, write_report_results
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.keys import Keys
 
 from analysis import report_page
@@ -130,6 +132,10 @@ class CurvesTest(PageTest):
         button.click()
         self.assertEqual((self.run_js(count), button.get_attribute("aria-pressed")), (0, "false"))
         self.assertEqual(len(self.find_all('#speed-plot [data-label="BSDF"]')), 0)
+        second = self.find('#speed .legend [data-label="BSDF"]')
+        self.assertEqual(second.get_attribute("aria-pressed"), "false")
+        second.click()
+        self.assertEqual((self.run_js(count), button.get_attribute("aria-pressed")), (4, "true"))
 
     def test_metrics_and_the_reference_floor(self) -> None:
         self.assertEqual(len(self.find_all("#curve-panels .floor")), 4)
@@ -177,6 +183,10 @@ class ImagesTest(PageTest):
         self.assertEqual(self.find("#exposure-value").text, "−2 EV")
         self.stage.send_keys("]")
         self.painted("0 image -1.5", 0)
+        self.find("#exposure-auto").click()
+        image = picture(16, 0, 0)
+        stops = np.log2(0.18) - np.mean([np.log2(image[name]) for name in "RGB"])
+        self.assertAlmostEqual(float(self.find("#exposure").get_attribute("value")), stops, delta=0.13)
 
     def test_the_wipe_slider_and_its_handle_cut_the_second_image(self) -> None:
         clip = "return document.querySelector('.pane.second').style.clipPath"
@@ -228,6 +238,9 @@ class ImagesTest(PageTest):
         self.assertNotEqual(first, before[0])
         self.stage.send_keys("0")
         self.assertEqual(self.run_js(transforms), before)
+        self.assertIs(self.run_js("return document.activeElement === arguments[0]", self.stage), True)
+        ActionChains(self.browser).scroll_from_origin(ScrollOrigin.from_element(self.stage), 0, -300).perform()
+        self.until(f"return document.querySelector('.pane canvas').style.transform !== '{before[0]}'")
 
     def test_all_methods_at_once_and_the_error_map(self) -> None:
         self.find('[data-mode="all"]').click()
@@ -247,6 +260,12 @@ class ImagesTest(PageTest):
         self.find("#firefly-list button").click()
         self.assertEqual(self.find("#pixel-place").text, "Pixel 5, 2")
         self.assertIn("118", self.find("#firefly-list tbody").text)
+
+    def test_the_name_of_a_row_shows_its_image(self) -> None:
+        link = self.find('#cells-table tr[data-key="occluded / BSDF"] a')
+        link.send_keys(Keys.ENTER)
+        self.painted("2 image 0")
+        self.assertIn("B: scene=occluded,method=bsdf,seed=1, frame 8", self.find("#sources").text)
 
     def test_another_scene_and_another_method(self) -> None:
         self.run_js("const s = document.querySelector('#gallery'); s.value = 1; s.dispatchEvent(new Event('change'))")

@@ -43,6 +43,16 @@ function screenTable(stops) {
   });
 }
 
+// Puts the geometric mean of all values above zero to 0.18, to a quarter of a stop: Reinhard et al. 2002, equation 1.
+function autoStops({values}) {
+  let sum = 0, count = 0;
+  for (const bits of values ?? []) {
+    const value = floatOfHalf[bits];
+    if (value > 0 && value < Infinity) [sum, count] = [sum + Math.log2(value), count + 1];
+  }
+  return count === 0 ? 0 : Math.min(8, Math.max(-8, Math.round(4 * (Math.log2(0.18) - sum / count)) / 4));
+}
+
 // The table of the last exposure is kept.
 function screenTableNow(stops) {
   if (screenTableNow.stops !== stops) Object.assign(screenTableNow, {stops, table: screenTable(stops)});

@@ -1,7 +1,7 @@
-// Which methods are shown: one legend for all plots.
+// Which methods are shown: the legends are one for all plots.
 const hidden = new Set();
 const plots = [];  // {redraw(), all: [Plot]}
-const legend = document.querySelector(".legend");
+const legends = [...document.querySelectorAll(".legend")];
 
 function swatch(index) {
   const {colour, outline, dash} = look(index);
@@ -12,7 +12,7 @@ function swatch(index) {
 }
 
 function redrawPlots() {
-  for (const button of legend?.children ?? []) button.setAttribute("aria-pressed", String(!hidden.has(button.dataset.label)));
+  for (const button of document.querySelectorAll(".legend button")) button.setAttribute("aria-pressed", String(!hidden.has(button.dataset.label)));
   for (const plot of plots) plot.redraw();
 }
 
@@ -20,7 +20,7 @@ function heatPlots(label) {
   for (const plot of plots) for (const one of plot.all) one.heat(label);
 }
 
-function buildLegend() {
+function buildLegend(legend) {
   data.labels.forEach((label, index) => {
     const button = element("button", {type: "button", "data-label": label}, swatch(index), label);
     button.addEventListener("click", () => { hidden.delete(label) || hidden.add(label); redrawPlots(); });
@@ -28,6 +28,9 @@ function buildLegend() {
     for (const off of ["pointerleave", "blur"]) button.addEventListener(off, () => heatPlots(null));
     legend.append(button);
   });
+}
+
+function legendControls() {
   document.querySelector("#show-all").addEventListener("click", () => { hidden.clear(); redrawPlots(); });
   document.querySelector("#show-none").addEventListener("click", () => { data.labels.forEach(label => hidden.add(label)); redrawPlots(); });
   const search = document.querySelector("#legend-search");
@@ -40,4 +43,7 @@ function buildLegend() {
   });
 }
 
-if (legend) buildLegend();
+if (legends.length) {
+  legends.forEach(buildLegend);
+  legendControls();
+}

@@ -21,10 +21,20 @@ function look(index) {
   return {colour: `var(--c${index % 8})`, outline: outlines[index % outlines.length], dash: dashes[Math.floor(index / 8) % 4]};
 }
 
+// Round numbers a few steps apart, for axes that are too short for powers and their parts.
+function evenTicks(low, high, room) {
+  const rough = (high - low) / Math.max(2, Math.min(6, room)), power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map(factor => factor * power).find(size => size >= rough);
+  const ticks = [];
+  for (let i = Math.ceil(low / step); i * step <= high; ++i) ticks.push(i * step);
+  return ticks;
+}
+
 function logTicks(low, high, base, room) {
+  if (base === 10 && high / low < 4) return evenTicks(low, high, room);
   const log = value => Math.log(value) / Math.log(base);
   const first = Math.floor(log(low)), last = Math.ceil(log(high));
-  const fine = high / low < 12 ? [1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9] : high / low < 300 ? [1, 2, 5] : [1];
+  const fine = high / low < 20 ? [1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9] : high / low < 300 ? [1, 2, 5] : [1];
   const factors = base === 10 ? fine : [1];
   let ticks = [];
   for (let power = first; power <= last; ++power) for (const f of factors) ticks.push(f * base ** power);
@@ -45,7 +55,7 @@ class Plot {
     this.svg = shape("svg", {class: "chart", role: "group", tabindex: 0, "aria-label": spec.title}, holder);
     this.at = null;
     this.svg.addEventListener("pointermove", event => this.point(event));
-    this.svg.addEventListener("pointerleave", () => { this.mark(null); hideTip(); });
+    this.svg.addEventListener("pointerleave", () => { this.mark(null); hideTip(); heatPlots(null); });
     this.svg.addEventListener("keydown", event => this.key(event));
     this.svg.addEventListener("blur", () => this.mark(null));
     new ResizeObserver(() => this.draw()).observe(holder);
@@ -57,7 +67,8 @@ class Plot {
     this.svg.replaceChildren();
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.svg.setAttribute("height", height);
-    this.box = {left: 62, right: width - 14, top: 14, bottom: height - 46};
+    const yTexts = logTicks(...this.spec.y, 10, (height - 60) / 28).map(axisText);
+    this.box = {left: 34 + 7 * Math.max(4, ...yTexts.map(text => text.length)), right: width - 14, top: 14, bottom: height - 46};
     this.axes();
     shape("clipPath", {id: this.clip ??= `clip${Plot.count = (Plot.count ?? 0) + 1}`}, this.svg)
       .append(shape("rect", {x: this.box.left, y: this.box.top, width: this.box.right - this.box.left, height: this.box.bottom - this.box.top}));

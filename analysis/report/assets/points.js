@@ -11,7 +11,10 @@ Object.assign(Plot.prototype, {
 
   point(event) {
     const box = this.svg.getBoundingClientRect();
+    const before = this.at && this.series[this.at[0]].label;
     this.mark(this.nearest(event.clientX - box.left, event.clientY - box.top));
+    const label = this.at && this.series[this.at[0]].label;
+    if (label !== before) heatPlots(label);  // the same method in all plots
     if (this.at) showTip(this.chosen().tip, event.clientX, event.clientY);
     else hideTip();
   },

@@ -13,7 +13,8 @@ class SpeedPanel {
     if (data.figures.y.relmse) this.y.value = "relmse";
     const figure = element("figure");
     holder.append(figure);
-    this.plot = new Plot(figure, {title: "speed against error, a point per cell", x: [1, 2], y: [1, 2], height: 430, guides: drawEfficiency});
+    this.plot = new Plot(figure, {title: "speed against error, a point per cell", x: [1, 2], y: [1, 2], height: 430, 
+      guides: (plot, parent) => { drawEfficiency(plot, parent); this.drawFronts(plot, parent); }});
     this.all = [this.plot];
     for (const control of [this.scene, this.x, this.y]) control.addEventListener("change", () => this.redraw());
   }
@@ -30,16 +31,31 @@ class SpeedPanel {
     const ranged = shown.length ? shown : cells;
     if (ranged.length) Object.assign(this.plot.spec, {x: widened(span(ends(xKey, ranged)), 0.08), y: widened(span(ends(yKey, ranged)), 0.08)});
     Object.assign(this.plot.spec, {xName: xFigure.name, yName: yFigure.name});
+    this.fronts = data.scenes.map(scene => front(shown.filter(cell => cell.scene === scene).map(cell => [cell.figures[xKey], cell.figures[yKey]].map(([mean]) => Number(mean)))));
     this.plot.series = shown.map(cell => {
       const [x, xLow, xHigh] = cell.figures[xKey].map(Number), [y, low, high] = cell.figures[yKey].map(Number);
       const says = (name, [mean, low, high]) => `${name} ${mean}${low ? `\n95 %: ${low} to ${high}` : ""}`;
       const tip = `${cell.cell}\n${says(xFigure.name, cell.figures[xKey])}\n${says(yFigure.name, cell.figures[yKey])}${cell.floor ? "\nat the reference's noise" : ""}`;
       return {label: cell.label, look: look(data.labels.indexOf(cell.label)), line: false, points: [{x, y, low, high, xLow, xHigh, tip, hollow: cell.floor,
-        text: data.scenes.length > 1 && !this.scene.value ? cell.scene : ""}]};
+        text: data.scenes.length > 1 && !this.scene.value ? cell.scene : shown.length <= 16 ? cell.label : ""}]};
     });
     this.plot.at = null;
     this.plot.draw();
   }
+
+  drawFronts(plot, parent) {
+    for (const points of this.fronts ?? []) {
+      if (points.length < 2) continue;
+      const steps = points.slice(1).map(([x, y]) => `H${plot.px(x)}V${plot.py(y)}`).join("");
+      shape("path", {class: "front", d: `M${plot.px(points[0][0])} ${plot.py(points[0][1])}${steps}`}, parent);
+    }
+  }
+}
+
+// The points that no other one beats in both ways.
+function front(points) {
+  let least = Infinity;
+  return points.sort((a, b) => a[0] - b[0] || a[1] - b[1]).filter(([, y]) => y < least && (least = y, true));
 }
 
 // Lines of equal error times time, a factor of ten apart; straight and falling on these axes.

@@ -78,6 +78,7 @@ function viewerControls(viewer) {
   on("swap", "click", () => viewer.set({chosen: [viewer.chosen[1], viewer.chosen[0]]}));
   on("exposure", "input", event => viewer.set({stops: Number(event.target.value)}));
   on("exposure-zero", "click", () => viewer.set({stops: 0}));
+  on("exposure-auto", "click", () => viewer.set({stops: autoStops(viewer.halves[viewer.chosen[0]])}));
   on("wipe", "input", event => viewer.set({wipe: Number(event.target.value)}));
   on("flip-now", "click", () => viewer.flip());
   on("fireflies", "change", event => viewer.set({showsFireflies: event.target.checked}));
@@ -90,6 +91,20 @@ function viewerControls(viewer) {
   }
 }
 
+// The name of a row shows its image as B.
+function linkToImages(viewer, row) {
+  const isRow = picture => picture.cell === row.dataset.key;
+  const gallery = data.galleries.findIndex(({pictures}) => pictures.some(isRow));
+  if (gallery < 0) return;
+  const name = row.querySelector("th .shown"), link = element("a", {href: "#images", "data-tip": "show its image"}, name.textContent);
+  name.replaceChildren(link);
+  link.addEventListener("click", () => {
+    viewer.find("gallery").value = gallery;
+    viewer.open(gallery);
+    viewer.set({chosen: [0, viewer.gallery.pictures.findIndex(isRow)]});
+  });
+}
+
 const viewerRoot = document.querySelector(".viewer-section");
 if (viewerRoot) {
   const viewer = new Viewer(viewerRoot);
@@ -97,4 +112,5 @@ if (viewerRoot) {
   stageKeys(viewer);
   viewerControls(viewer);
   viewer.set({});
+  for (const row of document.querySelectorAll("#cells-table tbody tr")) linkToImages(viewer, row);
 }
