@@ -52,11 +52,7 @@ class Span:
 class Table:
     columns: list[Column]
     rows: list[tuple[Row, list[Field]]]
-
-    @property
-    def key(self) -> int:
-        """The column that names the row."""
-        return next((i for i, column in enumerate(self.columns) if column.name == "method"), 0)
+    key: int = 0  # the column that names the row
 
     @property
     def scales(self) -> dict[str, Callable[[Field], Span | None]]:

@@ -41,7 +41,7 @@ def _unfinished(sweep: Sweep) -> Iterator[Finding]:
     partial = [row for row in sweep.summary if row["status"] == "partial"]
     if partial:
         yield Finding("failed", f"{_of(len(partial), len(planned))} stopped on the way. What they have is shown where no "
-                      "seed of their cell is finished; the same `qtrace run` goes on from there.",
+                      "seed of their cell is finished; the same command goes on from there.",
                       [f"{row['run']}: {row['frames']} frames" + (f"; {row['reason']}" if row["reason"] else "")
                        for row in partial])
     missing = [str(run.get("run")) for run in planned if str(run.get("run")) not in status]
@@ -154,7 +154,19 @@ def _warnings(sweep: Sweep) -> Iterator[Finding]:
         yield Finding("noted", "The program warned while it ran.",
                       [text + (f" ({count} times)" if count > 1 else "") for text, count in counts.items()])
     if sweep.gaps:
-        yield Finding("flagged", "Files of this folder could not be read; what they hold is missing below.", sweep.gaps)
+        yield Finding("flagged", "Files of this folder could not be read; what they hold is missing below.",
+                      [gap.replace(f"{sweep.folder}/", "").replace(f"{sweep.folder}: ", "") for gap in sweep.gaps])
+
+
+def outcome(sweep: Sweep, found: list[Finding]) -> list[tuple[str, str]]:
+    """For the top of the page: levels and a few words on each."""
+    done = {row["run"] for row in sweep.summary if row["status"] == "finished"}
+    undone = sum(str(run.get("run")) not in done for run in sweep.planned)
+    unexpected = sum(row.get("verdict") == "fail" for row in sweep.summary)
+    flags, notes = (sum(finding.level == level for finding in found) for level in ("flagged", "noted"))
+    words = [("failed", undone and f"{_many(undone, 'run')} not finished"), ("failed", unexpected and f"{unexpected} not as expected"),
+             ("flagged", flags and _many(flags, "flag")), ("noted", notes and _many(notes, "note"))]
+    return [(level, text) for level, text in words if text]
 
 
 def findings(sweep: Sweep) -> list[Finding]:

@@ -121,11 +121,10 @@ def render(sweep: Sweep) -> str:
     images = pictures.galleries(sweep)
     inspections, learned_note = learned.inspections(sweep)
     found = findings.findings(sweep)  # after all has been read, as what could not be is among them
-    counts = {level: sum(finding.level == level for finding in found) for level in ("failed", "flagged", "noted")}
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
     tables = learned.saved_tables(sweep)
     return environment.get_template("page.html").render(
-        sweep=sweep, lead=_lead(sweep), found=found, counts=counts, main_table=table.main_table(sweep),
+        sweep=sweep, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
         sections=_sections(bool(sweep.cells), bool(images), bool(inspections or tables)), galleries=images,
         image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), inspections=inspections,
         learned_note=learned_note, saved_tables=tables, published_ratios=_published_ratios(sweep),

@@ -13,14 +13,28 @@ def total(rows: Iterable[Row], name: str) -> int:
     return sum(int(row[name]) for row in rows if row.get(name))
 
 
+def _axes(sweep: Sweep) -> list[str]:
+    """Those that tell the cells of one scene apart, as in table.md; the label where there are none."""
+    axes = [name for name in next(iter(sweep.cells), {}) if name.startswith("axis:") and name not in ("axis:scene", "axis:seed")]
+    return axes or ["label"]
+
+
+def _key_names(sweep: Sweep) -> list[str]:
+    return (["scene"] if len(sweep.scenes) > 1 else []) + _axes(sweep)
+
+
 def _key_columns(sweep: Sweep) -> list[Column]:
-    scene = [Column("scene", "", False)] if len(sweep.scenes) > 1 else []
-    return [*scene, Column("method", "The cell of the sweep: what its seeds have in common", False)]
+    return [Column(name.removeprefix("axis:"), "", False) for name in _key_names(sweep)]
 
 
 def _key_fields(sweep: Sweep, cell: Row) -> list[Field]:
-    scene = [plain(cell["scene"])] if len(sweep.scenes) > 1 else []
-    return [*scene, plain(cell["label"])]
+    return [plain(cell[name]) for name in _key_names(sweep)]
+
+
+def _table(sweep: Sweep, columns: list[Column], rows: list[tuple[Row, list[Field]]]) -> Table:
+    """With the keys of each cell in front of its fields."""
+    keys = _key_columns(sweep)
+    return Table([*keys, *columns], [(cell, [*_key_fields(sweep, cell), *fields]) for cell, fields in rows], len(keys) - 1)
 
 
 def _has(sweep: Sweep, name: str) -> bool:
@@ -81,11 +95,11 @@ def ratio_table(sweep: Sweep) -> Table:
     names = [name for name in next(iter(sweep.ratios.values()), {}) if f"{name}_low" in next(iter(sweep.ratios.values()))]
     shown = [name for name in names if any(row[name] for row in sweep.ratios.values())]
     cells = [cell for cell in sweep.cells if cell["cell"] in sweep.ratios]
-    columns = [*_key_columns(sweep), Column("baseline", "", False),
+    columns = [Column("baseline", "", False),
                *(Column(name.removeprefix("ratio_").replace("_", " "), name) for name in shown)]
     rows = [sweep.ratios[cell["cell"]] for cell in cells]
-    return Table(columns, [(cell, [*_key_fields(sweep, cell), plain(row["baseline"]), *(figure(row, name) for name in shown)])
-                           for cell, row in zip(cells, rows)])
+    return _table(sweep, columns, [(cell, [plain(row["baseline"]), *(figure(row, name) for name in shown)])
+                                   for cell, row in zip(cells, rows)])
 
 
 def main_table(sweep: Sweep) -> Table:
@@ -95,11 +109,11 @@ def main_table(sweep: Sweep) -> Table:
     place = chosen.index("relmse_x_s") + 1 if "relmse_x_s" in chosen else len(chosen)
     chosen[place:place] = ratios
     verdicts = any(row.get("verdict") for row in sweep.summary)
-    columns = [*_key_columns(sweep), *(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
+    columns = [*(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
                Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"), Column("non-finite", "Samples that were NaN or infinite"),
                Column("at floor", "Seeds whose error is within 3 times the reference's own noise"),
                *([Column("verdict", "Against what the config expects", False)] if verdicts else [])]
-    return Table(columns, [(cell, _main_fields(sweep, cell, chosen, verdicts)) for cell in sweep.cells])
+    return _table(sweep, columns, [(cell, _main_fields(sweep, cell, chosen, verdicts)) for cell in sweep.cells])
 
 
 def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> list[Field]:
@@ -108,15 +122,17 @@ def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> 
     bad = total(runs, "non_finite")
     words = sorted({row["verdict"] for row in runs if row.get("verdict")})
     few = cell.get("runs", seeds) != seeds
-    return [*_key_fields(sweep, cell), *(_figure_field(sweep, cell, name) for name in chosen), plain(cell["frames"]),
-            Field(f"{seeds} of {cell['runs']}" if few else seeds, seeds, flag=few), plain(str(bad), bad > 0),
+    partial = bool(runs) and all(row["status"] == "partial" for row in runs)
+    seeds_text = f"{seeds} of {cell['runs']}" if few else seeds
+    return [*(_figure_field(sweep, cell, name) for name in chosen), plain(cell["frames"]),
+            Field(seeds_text + (" partial" if partial else ""), seeds, flag=few or partial), plain(str(bad), bad > 0),
             Field("no" if floor in ("", "0") else f"{floor} of {seeds}", floor or "0", flag=floor not in ("", "0")),
             *([plain(", ".join(words), any(word not in ("pass", "unseen") for word in words))] if verdicts else [])]
 
 
 def path_table(sweep: Sweep) -> Table:
     """Path statistics: totals over the runs of a cell are sums of whole numbers of summary.csv."""
-    columns = [*_key_columns(sweep), Column("paths", "Of all seeds"), Column("rays", "Of all seeds"),
+    columns = [Column("paths", "Of all seeds"), Column("rays", "Of all seeds"),
                Column("mean length", "Segments per path"), Column("zero paths", "Fraction that brought nothing"),
                Column("cell look-ups", ""), Column("fallbacks", "Look-ups where no site's normal fitted"),
                Column("saturated", "Updates of the table beyond its range"), Column("fireflies", ""),
@@ -129,11 +145,11 @@ def path_table(sweep: Sweep) -> Table:
         flagged = ("saturated_updates", "clamped_samples", "non_finite")
         fields = {name: Field(f"{value:,}".replace(",", " "), str(value), flag=name in flagged and value > 0)
                   for name, value in count.items()}
-        rows.append((cell, [*_key_fields(sweep, cell), fields["paths"], fields["rays"],
+        rows.append((cell, [fields["paths"], fields["rays"],
                             figure(cell, "mean_path_length"), figure(cell, "zero_path_fraction"),
                             fields["cell_lookups"], fields["cell_fallbacks"], fields["saturated_updates"],
                             fields["fireflies"], fields["clamped_samples"], fields["non_finite"]]))
-    return Table(columns, rows)
+    return _table(sweep, columns, rows)
 
 
 def run_table(sweep: Sweep) -> Table:

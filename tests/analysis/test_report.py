@@ -14,6 +14,7 @@ from analysis import report_page
 from analysis.report import number
 from analysis.report.findings import findings
 from analysis.report.sweep import read_sweep
+from analysis.report.table import SLOPE_TOLERANCE, main_table
 
 RUN = "scene=simple,method=nee-two-rays,seed=1"
 
@@ -163,8 +164,17 @@ class FindingsTest(ReportTest):
         self.assertEqual(found[1].details, [f"{RUN.replace('seed=1', 'seed=2')}: 4 frames"])
         page = self.page()
         self.assertIn(f"{RUN}: the device <was> reset", page.text)
+        self.assertIn("3 runs not finished", page.text)
         self.assertLess(page.text.index("the device <was> reset"), page.text.index("relMSE"))
         self.assertEqual(page.data["curves"]["relmse"]["simple / NEE, two rays"][0][6], 1)  # seeds that count
+
+    def test_a_cell_of_partial_runs_alone_is_shown_and_marked(self) -> None:
+        for seed, frames in ((1, 4), (2, 2), (3, 4)):
+            fail_run(self.results, f"scene=simple,method=rl,seed={seed}", "partial", "", frames)
+        page = self.page()
+        self.assertEqual(page.data["curves"]["relmse"]["simple / RL"][0][6], 2)  # the two that came furthest
+        fields = main_table(read_sweep(self.results)).rows[2][1]
+        self.assertEqual([field.shown for field in fields if field.flag], ["3 partial"])
 
     def test_flags_of_cells(self) -> None:
         write_cells(self.results, {"simple / BSDF": (-1.3, -1.4, -1.2), "occluded / RL": (-0.75, -0.8, -0.7)},
@@ -185,7 +195,6 @@ class FindingsTest(ReportTest):
         self.assertEqual((warmup.level, warmup.details), ("noted", [f"{RUN}: 9 slow frames"]))
 
     def test_the_tolerance_is_that_of_the_table(self) -> None:
-        from analysis.report.table import SLOPE_TOLERANCE
         self.assertIn(f"kSlopeTolerance = {SLOPE_TOLERANCE};", (ROOT / "experiments" / "table.cpp").read_text())
 
 
@@ -222,7 +231,7 @@ class MissingTest(ReportTest):
         (self.results / RUN / "convergence.csv").unlink()
         (self.results / RUN / "manifest.json").write_text("{")
         text = self.page().text
-        self.assertRegex(text, "1 flagged.*convergence.csv: no such file.*manifest.json: cannot be read as JSON")
+        self.assertRegex(text, "1 flag .*convergence.csv: no such file.*manifest.json: cannot be read as JSON")
 
     def test_no_finished_run(self) -> None:
         rows = [{**row, "status": "failed", "reason": "no room"} for row in read_fields(self.results / "summary.csv")]

@@ -26,9 +26,9 @@ class CurvePanel {
   constructor(holder, scene) {
     this.scene = scene;
     this.cells = data.cells.filter(cell => cell.scene === scene);
-    holder.append(element("h3", {}, scene));
     const pair = element("div", {class: "panels"});
-    holder.append(pair);
+    this.root = element("div", {}, element("h3", {}, scene), pair);
+    holder.append(this.root);
     this.all = [["samples per pixel (spp)", SPP, 2], ["seconds, learning included", SECONDS, 10]].map(([xName, column, xBase]) => {
       const figure = element("figure");
       pair.append(figure);
@@ -39,6 +39,8 @@ class CurvePanel {
   }
 
   redraw() {
+    this.root.hidden = sceneChoice.value !== "" && sceneChoice.value !== this.scene;
+    if (this.root.hidden) return;
     const key = metric.value, name = data.metrics[key].split(" (")[0];
     const curves = this.cells.filter(cell => data.curves[key][cell.cell])
       .map(cell => ({cell, points: data.curves[key][cell.cell].filter(p => p[MEAN] > 0 && p[SECONDS] > 0)})).filter(one => one.points.length);
@@ -58,11 +60,17 @@ class CurvePanel {
   }
 }
 
+const sceneChoice = document.querySelector("#curve-scene");
+
 if (metric) {
+  for (const [value, name] of [["", "all"], ...data.scenes.map(scene => [scene, scene])]) sceneChoice.append(element("option", {value}, name));
+  sceneChoice.parentElement.hidden = data.scenes.length < 2;
+  if (data.scenes.length > 4) sceneChoice.value = data.scenes[0];
+  sceneChoice.addEventListener("change", redrawPlots);
   for (const [key, name] of Object.entries(data.metrics)) metric.append(element("option", {value: key}, name));
   if (data.metrics.relmse) metric.value = "relmse";
   if (metric.options.length) for (const scene of data.scenes) plots.push(new CurvePanel(document.querySelector("#curve-panels"), scene));
-  else document.querySelector("#curve-panels").append(element("p", {class: "lead"}, "No error was measured in any run."));
+  else document.querySelector("#curve-panels").append(element("p", {class: "lead"}, "No error was measured, or no convergence.csv could be read."));
   metric.addEventListener("change", redrawPlots);
   redrawPlots();
 }
