@@ -61,10 +61,10 @@ def _widen_summary(folder: Path) -> None:
 
 
 def picture(side: int, seed: int, noise: float) -> dict[str, np.ndarray]:
-    """A slope from dark to bright with noise; the channels of one pixel are 2, 1, 0.5 times its grey."""
+    """A slope from dark to bright, 2, 1 and 0.5 times as bright in R, G and B, with noise of its own in each."""
     grey = np.linspace(0.05, 4, side * side).reshape(side, side)
-    grey = grey * (1 + noise * np.random.default_rng(seed).standard_normal((side, side)))
-    return {"R": 2 * grey, "G": grey, "B": grey / 2}
+    factors = 1 + noise * np.random.default_rng(seed).standard_normal((3, side, side))
+    return {name: share * grey * factor for name, share, factor in zip("RGB", (2, 1, 0.5), factors)}
 
 
 def write_pictures(folder: Path, side: int) -> None:
