@@ -52,6 +52,7 @@ class Viewer {
     for (const pane of this.panes) pane.root.style.aspectRatio = `${this.width} / ${this.height}`;
     const across = this.mode === "side" ? 2 : 1;
     this.stage.style.maxWidth = this.mode === "all" ? "" : `calc(72vh * ${across * this.width / this.height})`;
+    this.find("wipe").style.maxWidth = this.stage.style.maxWidth;
     this.stage.replaceChildren(...this.panes.map(pane => pane.root), ...this.mode === "wipe" ? [this.divider] : []);
     this.front = 1;
     this.repaint();
