@@ -17,6 +17,7 @@ import numpy as np
 
 from analysis.command import AnalysisError
 from analysis.exr import read_exr
+from analysis.report import number
 from analysis.report.sweep import Row, Sweep
 
 BOUND_MB = 24             # of unpacked half floats of the whole page
@@ -86,7 +87,8 @@ def _snapshot(sweep: Sweep, cell: Row) -> Picture | None:
         if images:
             frame = int(images[-1].stem[-6:])
             fireflies = (sweep.manifests.get(run["run"], {}).get("brightest_fireflies") or [])[:MAX_FIREFLIES]
-            return Picture(cell["cell"], cell["label"], f"{run['run']}, frame {frame}", images[-1],
+            error = f", relMSE {number.short(run['relmse'])}" if run["frames"] == str(frame) else ""
+            return Picture(cell["cell"], cell["label"], f"{run['run']}, frame {frame}{error}", images[-1],
                            fireflies=fireflies)
     return None
 

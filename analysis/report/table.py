@@ -130,6 +130,11 @@ def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> 
             *([plain(", ".join(words), any(word not in ("pass", "unseen") for word in words))] if verdicts else [])]
 
 
+# Whole numbers of summary.csv, and whether one above zero is worth a look.
+COUNTS = {"paths": False, "rays": False, "cell_lookups": False, "cell_fallbacks": False, "saturated_updates": True,
+          "fireflies": False, "clamped_samples": True, "non_finite": True}
+
+
 def path_table(sweep: Sweep) -> Table:
     """Path statistics: totals over the runs of a cell are sums of whole numbers of summary.csv."""
     columns = [Column("paths", "Of all seeds"), Column("rays", "Of all seeds"),
@@ -140,10 +145,8 @@ def path_table(sweep: Sweep) -> Table:
     rows = []
     for cell in sweep.cells:
         runs = sweep.members[cell["cell"]]
-        count = {name: total(runs, name) for name in ("paths", "rays", "cell_lookups", "cell_fallbacks",
-                                                      "saturated_updates", "fireflies", "clamped_samples", "non_finite")}
-        flagged = ("saturated_updates", "clamped_samples", "non_finite")
-        fields = {name: Field(f"{value:,}".replace(",", " "), str(value), flag=name in flagged and value > 0)
+        count = {name: total(runs, name) for name in COUNTS}
+        fields = {name: Field(f"{value:,}".replace(",", " "), str(value), flag=COUNTS[name] and value > 0)
                   for name, value in count.items()}
         rows.append((cell, [fields["paths"], fields["rays"],
                             figure(cell, "mean_path_length"), figure(cell, "zero_path_fraction"),

@@ -14,7 +14,7 @@ from analysis import report_page
 from analysis.report import number
 from analysis.report.findings import findings
 from analysis.report.sweep import read_sweep
-from analysis.report.table import SLOPE_TOLERANCE, main_table
+from analysis.report.table import COUNTS, FIGURES, SLOPE_TOLERANCE, main_table
 
 RUN = "scene=simple,method=nee-two-rays,seed=1"
 
@@ -196,6 +196,17 @@ class FindingsTest(ReportTest):
 
     def test_the_tolerance_is_that_of_the_table(self) -> None:
         self.assertIn(f"kSlopeTolerance = {SLOPE_TOLERANCE};", (ROOT / "experiments" / "table.cpp").read_text())
+
+
+class ContractTest(unittest.TestCase):
+    def test_every_column_shown_is_one_that_the_program_writes(self) -> None:
+        declared = "".join((ROOT / "experiments" / name).read_text(encoding="utf-8")
+                           for name in ("records.cpp", "cell_columns.cpp", "ratio_columns.cpp", "cells.cpp"))
+        for name in [*FIGURES, *COUNTS, "seeds_at_reference_floor", "mean_path_length", "zero_path_fraction", "noisy",
+                     "warmup_detected", "verdict_reason"]:
+            # The clocks' and filter's columns are put together from two parts.
+            part = name.removeprefix("host").removeprefix("gpu").removeprefix("filtered_")
+            self.assertTrue(name == "published" or f'"{name}"' in declared or f'"{part}"' in declared, name)
 
 
 class NamesTest(ReportTest):

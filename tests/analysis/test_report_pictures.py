@@ -58,7 +58,7 @@ class GalleryTest(FolderTest):
         self.assertEqual([gallery.name for gallery in galleries], ["simple", "occluded"])
         found = galleries[1]
         self.assertEqual([p.name for p in found.pictures], ["reference", "NEE, two rays", "BSDF", "RL"])
-        self.assertEqual(found.pictures[3].source, "scene=occluded,method=rl,seed=1, frame 8")
+        self.assertEqual(found.pictures[3].source, "scene=occluded,method=rl,seed=1, frame 8, relMSE 0.9")
         data = pictures.gallery_data(found)
         self.assertEqual([p["reference"] for p in data["pictures"]], [None, 0, 0, 0])
         self.assertEqual(data["pictures"][3]["fireflies"], [FIREFLY])

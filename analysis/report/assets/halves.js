@@ -81,16 +81,24 @@ function pixelError(a, r) {
 
 const errorLow = 1e-4, errorHigh = 1e2;  // ends of the error map's scale
 
-function errorColour(error) {
-  if (!Number.isFinite(error)) return [255, 0, 255];
+// Into the 256 colours; -1 for what is not finite.
+function errorShade(error) {
+  if (!Number.isFinite(error)) return -1;
   const share = Math.log(Math.max(error, 1e-30) / errorLow) / Math.log(errorHigh / errorLow);
-  return data.magma[Math.round(255 * Math.min(1, Math.max(0, share)))];
+  return Math.round(255 * Math.min(1, Math.max(0, share)));
 }
 
 function paintError(halves, reference) {
-  const {width, height} = halves, pixels = new Uint8ClampedArray(4 * width * height);
-  for (let y = 0, i = 0; y < height; ++y) {
-    for (let x = 0; x < width; ++x, i += 4) pixels.set([...errorColour(pixelError(halves.rgb(x, y), reference.rgb(x, y))), 255], i);
+  const {values, width, height} = halves, count = width * height, pixels = new Uint8ClampedArray(4 * count);
+  for (let i = 0; i < count; ++i) {
+    let error = 0;
+    for (let at = i; at < values.length; at += count) {
+      const r = floatOfHalf[reference.values[at]];
+      error += (floatOfHalf[values[at]] - r) ** 2 / (r * r + 0.01) / 3;
+    }
+    const shade = errorShade(error);
+    pixels.set(shade < 0 ? [255, 0, 255] : data.magma[shade], 4 * i);
+    pixels[4 * i + 3] = 255;
   }
   return new ImageData(pixels, width, height);
 }
