@@ -8,7 +8,8 @@ class Halves {
 
   async unpack() {
     const text = document.querySelector(`script[data-picture="${this.id}"]`).textContent;
-    const packed = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+    const letters = atob(text), packed = new Uint8Array(letters.length);
+    for (let i = 0; i < packed.length; ++i) packed[i] = letters.charCodeAt(i);
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
     const count = bytes.length / 2;
