@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "engine/core/text.h"
 #include "experiments/atomic_file.h"
+#include "experiments/preset.h"
 
 #include <algorithm>
 #include <set>
@@ -154,6 +155,7 @@ Experiment build(const std::string& text, const std::filesystem::path& file,
     for (const Setting& setting : settings) apply_setting(experiment.config, setting);
   }
 
+  experiment.config = with_preset(experiment.config, file);
   ExperimentKeys keys;
   read_knobs(experiment.config, keys);
   for (const Setting& setting : settings) check_not_swept(setting, keys.sweep.axes);
@@ -163,7 +165,7 @@ Experiment build(const std::string& text, const std::filesystem::path& file,
   experiment.baseline = keys.baseline;
 
   Json base = experiment.config;
-  for (const char* once : {"sweep", "published", "baseline"}) base.erase(once);
+  for (const char* once : {"sweep", "published", "baseline", "preset"}) base.erase(once);
   check_size(keys.sweep, base.dump().size(), limits);
   expand_sweep(keys.sweep,
                [&](const SweepPoint& point) { experiment.runs.push_back(make_run(point, keys.run)); });

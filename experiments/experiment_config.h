@@ -16,6 +16,7 @@ struct ExperimentKeys {
   Sweep sweep;
   Published published;
   std::string baseline;
+  std::string preset;
 };
 
 template <class Visitor>
@@ -29,6 +30,9 @@ void visit_knobs(Visitor& visit, ExperimentKeys& keys) {
                  "a label of one axis, or a cell (axis labels joined by ' / '): ratios.csv compares with it "
                  "every cell that differs from it in one label alone; empty: no ratios"},
         keys.baseline);
+  visit(KnobInfo{"preset", "",
+                 "a file with settings of a run, relative to the config; what the config sets itself overrides them"},
+        keys.preset);
 }
 
 struct Run {

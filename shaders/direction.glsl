@@ -14,7 +14,8 @@ struct Event {
   Cell cell;
 #endif
 #if SAMPLER == SAMPLER_RL
-  float bsdf_share;  // of the directions drawn here
+  bool is_guided;    // whether directions are drawn with the table
+  float bsdf_share;  // of these, by the BSDF
 #endif
 };
 
@@ -36,9 +37,9 @@ struct DirectionSample {
 
 #if SAMPLER == SAMPLER_RL
 
-// One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where the hit has no cell.
+// One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where no table guides.
 float mixture_pdf(Event e, float bsdf, float table) {
-  return e.cell.index == NO_CELL ? bsdf : mix(table, bsdf, e.bsdf_share);
+  return e.is_guided ? mix(table, bsdf, e.bsdf_share) : bsdf;
 }
 
 float bsdf_share_of(Cell cell) {
@@ -51,21 +52,26 @@ float bsdf_share_of(Cell cell) {
 
 float direction_pdf(Event e, vec3 wi) {
   float bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+  if (!e.is_guided) return bsdf;
   vec3 local = to_cell(e.cell, e.surface.normal, wi);
-  // Below the surface the table has no bins.
-  if (e.cell.index == NO_CELL || local.z <= 0.0) return bsdf;
+  if (local.z <= 0.0) return bsdf;  // below the surface the table has no bins
   return mixture_pdf(e, bsdf, table_pdf(uint(e.cell.index), bin_of(local)));
 }
 
 DirectionSample sample_direction(Event e, uvec4 bits) {
   vec2 u = vec2(to_unit(bits.y), to_unit(bits.z));
-  bool has_cell = e.cell.index != NO_CELL;
-  uint cell = has_cell ? uint(e.cell.index) : 0u;
   DirectionSample result;
+  if (!e.is_guided) {
+    result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
+    result.bsdf = result.pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction);
+    result.entry = result.share = NO_ENTRY;
+    return result;
+  }
+  uint cell = uint(e.cell.index);
   Choice choice = choose_bin(cell, bits.w);
   uint bin = choice.column;
   float table = bin_pdf(choice.probability);
-  bool by_table = has_cell && to_unit(bits.x) >= e.bsdf_share;
+  bool by_table = to_unit(bits.x) >= e.bsdf_share;
   if (by_table) {
     result.direction = to_world(direction_in_bin(bin, u), e.cell.tangent, e.surface.normal);
   } else {
@@ -77,10 +83,10 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   }
   result.bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction);
   result.pdf = mixture_pdf(e, result.bsdf, table);
-  result.entry = has_cell ? first_bin(cell) + bin : NO_ENTRY;
+  result.entry = first_bin(cell) + bin;
   result.share = NO_ENTRY;
 #ifdef LEARNS_MIXTURE
-  if (has_cell) result.share = first_share(cell) + (by_table ? SHARE_TABLE : SHARE_BSDF);
+  result.share = first_share(cell) + (by_table ? SHARE_TABLE : SHARE_BSDF);
 #endif
   return result;
 }

@@ -16,37 +16,7 @@ layout(std430, binding = BINDING_COLUMN_STARTS) restrict writeonly buffer Column
 layout(std430, binding = BINDING_BSDF_SHARES) restrict writeonly buffer BsdfShareBuffer { float bsdf_shares[]; };
 layout(std430, binding = BINDING_NEXT_VALUES) restrict writeonly buffer NextValueBuffer { float next_values[]; };
 
-// Targets that ran over in the counts of the low word, and of the middle one.
-uint beyond_low(TargetSum sum) {
-  return (sum.middle & SUM_MIDDLE_COUNT) + ((sum.high & SUM_HIGH_COUNT) << SUM_MIDDLE_COUNT_BITS);
-}
-
-uint beyond_middle(TargetSum sum) {
-  return sum.high & SUM_HIGH_COUNT;
-}
-
-uint targets_of(TargetSum sum) {
-  return (sum.low & SUM_LOW_COUNT) + (beyond_low(sum) << SUM_LOW_COUNT_BITS);
-}
-
-bool is_full(TargetSum sum) {
-  return sum.high >> SUM_HIGH_COUNT_BITS >= SUM_HIGH_FULL;
-}
-
-// What a full sum holds beyond the limit depends on the order of threads; the limit does not.
-float units_of(TargetSum sum) {
-  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;
-  // As one integer of 64 bits, which is rounded once for each half.
-  const uint middle_shift = 32u - SUM_LOW_COUNT_BITS;
-  const uint high_shift = middle_shift + 32u - SUM_MIDDLE_COUNT_BITS;
-  uint low = sum.low >> SUM_LOW_COUNT_BITS;
-  uint middle = (sum.middle >> SUM_MIDDLE_COUNT_BITS) - beyond_middle(sum);
-  uint high = sum.high >> SUM_HIGH_COUNT_BITS;
-  uint carry, borrow;
-  uint low_half = usubBorrow(uaddCarry(middle << middle_shift, low, carry), beyond_low(sum), borrow);
-  uint high_half = (high << (high_shift - 32u)) + uint(int(middle) >> (32u - middle_shift)) + carry - borrow;
-  return float(high_half) * 4294967296.0 + float(low_half);
-}
+#include "gathered.glsl"
 
 // The columns of one kind in one row, and what happened to all of them.
 struct Columns {
@@ -70,6 +40,11 @@ Columns columns_at(uint first, uint count) {
   return columns;
 }
 
+// Above 2^24 visits alpha no longer changes in a float; the counter must not wrap.
+void count_visits(uint entry, uint targets) {
+  q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);
+}
+
 void apply_targets(uint entry, Columns columns, float unit) {
   TargetSum sum = target_sums[entry];
   uint targets = targets_of(sum);
@@ -78,8 +53,7 @@ void apply_targets(uint entry, Columns columns, float unit) {
   float mean = units_of(sum) * unit / float(targets);
   Step step = learning_step(float(q_visits[entry]), float(targets), columns.visits, columns.targets);
   q_values[entry] = q_values[entry] * step.keep + mean * step.gain;
-  // Above 2^24 visits alpha no longer changes in a float; the counter must not wrap.
-  q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);
+  count_visits(entry, targets);
   target_sums[entry] = TargetSum(0u, 0u, 0u);
 }
 
@@ -94,69 +68,7 @@ float bin_weight(float value, uint bin) {
   return BIN_WEIGHT == BIN_WEIGHT_VALUE_COSINE ? value * bin_cosine(bin) : value;
 }
 
-#ifdef SHRINKS
-
-// Blocks of bins, a quarter of the square's side wide and high.
-const uint BLOCKS = 16u;
-
-uint block_of(uint bin) {
-  uvec2 place = uvec2(bin / uint(BINS_PHI), bin % uint(BINS_PHI)) * 4u / uvec2(BINS_THETA, BINS_PHI);
-  return place.x * 4u + place.y;
-}
-
-// Empirical Bayes (Efron & Morris 1973): a bin with few visits is pulled towards the mean of its block, and a block
-// towards the mean of its cell. Means over bins count each by how far it stands on its own, so that a bin that is
-// visited often because it is bright does not stand for its neighbours.
-float block_means[BLOCKS];
-
-void find_block_means(uint first) {
-  float sums[BLOCKS], weights[BLOCKS], visits[BLOCKS];
-  uint i = 0u;
-  do {
-    sums[i] = weights[i] = visits[i] = 0.0;
-    ++i;
-  } while (i < BLOCKS);
-  i = 0u;
-  do {
-    float n = float(q_visits[first + i]);
-    float weight = n / (n + parameters.shaping.x);
-    uint block = block_of(i);
-    sums[block] += weight * q_values[first + i];
-    weights[block] += weight;
-    visits[block] += n;
-    ++i;
-  } while (i < uint(BINS));
-  float sum = 0.0;
-  float weight = 0.0;
-  i = 0u;
-  do {
-    sum += sums[i];
-    weight += weights[i];
-    ++i;
-  } while (i < BLOCKS);
-  float mean = weight > 0.0 ? sum / weight : 0.0;
-  i = 0u;
-  do {
-    float own = weights[i] > 0.0 ? sums[i] / weights[i] : 0.0;
-    block_means[i] = mix(mean, own, visits[i] / (visits[i] + parameters.shaping.x));
-    ++i;
-  } while (i < BLOCKS);
-}
-
-float shrunk(uint first, uint bin) {
-  float n = float(q_visits[first + bin]);
-  return mix(block_means[block_of(bin)], q_values[first + bin], n / (n + parameters.shaping.x));
-}
-
-#else
-
-void find_block_means(uint first) {}
-
-float shrunk(uint first, uint bin) {
-  return q_values[first + bin];
-}
-
-#endif
+#include "shrinkage.glsl"
 
 void prepare_bins(uint first, float total) {
   float floor_share = total > 0.0 && is_finite(total) ? parameters.rl.y : 1.0;
@@ -206,38 +118,7 @@ void learn_bins(uint cell) {
 #endif
 
 #ifdef LEARNS_MIXTURE
-
-// Share of the BSDF. If A and B are the sums of the squares of what directions of the BSDF and of the table brought,
-// A / (A + B) is a step of expectation maximisation towards the mixture with the least second moment: at a minimum, the
-// derivative of the second moment, the integral of (f / p)^2 (p_bsdf - p_table), is zero, and then A / (A + B) is the share
-// itself. Later frames count for more, in proportion to their number, since the table that they used was better.
-const float LEAST_SHARE = 0.1;
-const float PRIOR_VISITS = 32.0;  // that count for bsdf_fraction
-
-void learn_mixture(uint cell) {
-  uint first = first_share(cell);
-  TargetSum by_bsdf = target_sums[first + SHARE_BSDF];
-  TargetSum by_table = target_sums[first + SHARE_TABLE];
-  float targets = float(targets_of(by_bsdf)) + float(targets_of(by_table));
-  float visits = float(q_visits[first + SHARE_BSDF]) + float(q_visits[first + SHARE_TABLE]);
-  if (targets > 0.0) {
-    float gain = min(2.0 * targets / (visits + 2.0 * targets), 1.0);
-    float scale = LIGHT_TARGET_UNIT / targets;
-    q_values[first + SHARE_BSDF] = mix(q_values[first + SHARE_BSDF], units_of(by_bsdf) * scale, gain);
-    q_values[first + SHARE_TABLE] = mix(q_values[first + SHARE_TABLE], units_of(by_table) * scale, gain);
-    q_visits[first + SHARE_BSDF] += targets_of(by_bsdf);
-    q_visits[first + SHARE_TABLE] += targets_of(by_table);
-    target_sums[first + SHARE_BSDF] = TargetSum(0u, 0u, 0u);
-    target_sums[first + SHARE_TABLE] = TargetSum(0u, 0u, 0u);
-    visits += targets;
-  }
-  float a = q_values[first + SHARE_BSDF];
-  float b = q_values[first + SHARE_TABLE];
-  float share = a + b > 0.0 ? a / (a + b) : parameters.rl.x;
-  share = (share * visits + parameters.rl.x * PRIOR_VISITS) / (visits + PRIOR_VISITS);
-  bsdf_shares[cell] = clamp(share, LEAST_SHARE, 1.0 - LEAST_SHARE);
-}
-
+#include "mixture.glsl"
 #endif
 
 #if LIGHT_COLUMNS > 0

@@ -9,6 +9,8 @@
 //                                                                         the report, listing of section 4.3.2
 // The first four estimate the incident radiance, but q_learning an upper bound of it; the last one nothing in
 // particular. Whatever they find, only the table differs.
+// With rl.learns beyond_nee, radiance is what the path itself brings of it: emission with the weight that next event
+// estimation leaves, and the direct light found at y.
 
 // A direction drawn at a hit, and what the path's throughput takes from it.
 struct Departure {
@@ -39,17 +41,13 @@ void learn(inout Tally tally, uint entry, float target) {
   }
 }
 
-// The square of what a direction brought, for the side of the mixture that drew it: see learn_mixture in learn.comp.
+// The square of what a direction brought, for the side of the mixture that drew it (mixture.glsl).
 void learn_share(inout Tally tally, uint entry, float contribution) {
 #ifdef LEARNS_MIXTURE
   float part = contribution * parameters.environment.w;
   if (frame_teaches != 0u && entry != NO_ENTRY && is_finite(part)) {
     ++tally.updates;
-#ifdef MIX1
-    if (gather_light_target(entry, part)) ++tally.saturated;
-#else
     if (gather_light_target(entry, part * part)) ++tally.saturated;
-#endif
   }
 #endif
 }

@@ -26,6 +26,7 @@ struct Taught {
 };
 
 #include "learning.glsl"
+#include "roulette.glsl"
 
 void leave_scene(inout Path path, uint bounce) {
   vec3 radiance = parameters.environment.rgb;
@@ -46,26 +47,6 @@ void arrive(inout Path path, Event e, Departure next, float t, uint bounce, bool
   learn_arriving(path, e, next, bounce, emitted, weight, scatters, key);
 }
 
-// Survival probability of Russian roulette: at most 0.95, as in the report, so that paths end also where
-// nothing is absorbed.
-const float MAX_SURVIVAL = 0.95;
-
-// Adjoint-driven roulette (Vorba & Krivanek 2016): what the path is still expected to bring, over what it was at its
-// first event. The lower end bounds how far a survivor is scaled up.
-const float LEAST_SURVIVAL = 0.1;
-
-float survival_by_value(inout Path path, Event e, uint bounce) {
-#if SAMPLER == SAMPLER_RL && ROULETTE == ROULETTE_VALUE
-  if (e.cell.index != NO_CELL) {
-    float beyond = reflectance(e.surface, e.bsdf, e.wo) * fetch_one(next_values, e.cell.index);
-    float value = average(path.throughput) * beyond;
-    if (bounce == 0u) path.expected = value;
-    if (path.expected > 0.0) return clamp(parameters.shaping.y * value / path.expected, LEAST_SURVIVAL, 1.0);
-  }
-#endif
-  return -1.0;
-}
-
 // One scattering event. Returns whether the path goes on.
 bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey key) {
   uint block = bounce * BLOCKS_PER_EVENT;
@@ -84,7 +65,7 @@ bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey ke
   path.weight = average(next.weight);
   path.cell = cell_of(e);
   if (bounce + 1u > parameters.path.y) {
-    float survival = by_value > 0.0 ? by_value : min(max_component(path.roulette), MAX_SURVIVAL);
+    float survival = by_value > 0.0 ? by_value : survival_by_reflectance(path);
     if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
     path.throughput /= survival;
     path.roulette /= survival;
@@ -101,14 +82,24 @@ Event event_at(inout Path path, Hit hit) {
   return e;
 }
 
+// For directions, for what the last of these teaches, or for lights.
+bool needs_cell(uint bounce) {
+  return LIGHT_COLUMNS > 0 || float(bounce) < parameters.shaping.z ||
+         (frame_teaches != 0u && float(bounce) == parameters.shaping.z);
+}
+
 // The event's cell, and where the path goes from there.
 Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key) {
 #ifdef HAS_TABLE
-  e.cell = find_cell(e.surface);
-  ++path.tally.lookups;
-  if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
+  e.cell = Cell(NO_CELL, vec3(0.0));
+  if (needs_cell(bounce)) {
+    e.cell = find_cell(e.surface);
+    ++path.tally.lookups;
+    if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
+  }
 #endif
 #if SAMPLER == SAMPLER_RL
+  e.is_guided = e.cell.index != NO_CELL && float(bounce) < parameters.shaping.z;
   e.bsdf_share = bsdf_share_of(e.cell);
 #endif
   return depart(e, key, bounce);

@@ -178,11 +178,11 @@ struct Parameters {
   vec4 camera_right;    // scaled by tan(fov / 2) * aspect
   vec4 camera_up;       // scaled by tan(fov / 2)
   vec4 camera_forward;  // unit
-  vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light
+  vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light or of the environment
   vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
   vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value, w: light_prior
   vec4 film;            // x: clamp_radiance, 0 where nothing is clamped
-  vec4 shaping;         // x: shrinkage, y: roulette_scale
+  vec4 shaping;         // x: shrinkage, y: roulette_scale, z: guided_bounces
   uvec4 image;          // x: width, y: height, z: seed
   uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
   vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit

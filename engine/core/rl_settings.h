@@ -69,31 +69,32 @@ struct EnumNames<Roulette> {
 
 struct RlSettings {
   UpdateRule update = UpdateRule::expected_sarsa;
-  Learns learns = Learns::all;
+  Learns learns = Learns::beyond_nee;
   LearningRate learning_rate = LearningRate::visits_per_bin;
   double rate_constant = 0.05;
   double rate_exponent = 0.7;
   CellKind cells = CellKind::voronoi;
-  SitePlacement site_placement = SitePlacement::uv;
+  SitePlacement site_placement = SitePlacement::area;
   int sites_per_object = 100;
-  int total_sites = 0;
+  int total_sites = 1000;
   SiteSearch site_search = SiteSearch::lists;
   double cell_normal_threshold = 0.866;
   int grid_resolution = 16;
   BinMap bin_map = BinMap::cylindrical;
-  int bins_theta = 10;
-  int bins_phi = 10;
+  int bins_theta = 16;
+  int bins_phi = 16;
   InitialTable initial_table = InitialTable::zero;
   double initial_value = 1;
-  BinWeight bin_weight = BinWeight::value;
-  double shrinkage = 0;
-  Mixture mixture = Mixture::fixed;
+  BinWeight bin_weight = BinWeight::value_cosine;
+  double shrinkage = 4;
+  Mixture mixture = Mixture::learned;
   double bsdf_fraction = 0.5;
-  double bin_floor = 0.1;
-  double roulette_scale = 2;
-  int teach_frames = 0;
-  double update_growth = 0;
-  Roulette roulette = Roulette::throughput;
+  double bin_floor = 0.03;
+  double roulette_scale = 3;
+  int teach_frames = 16;
+  double update_growth = 0.1;
+  int guided_bounces = 1024;
+  Roulette roulette = Roulette::value;
 
   bool operator==(const RlSettings&) const = default;
 };
@@ -183,6 +184,11 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  "most 32 frames); 0: after every frame",
                  0, 1},
         rl.update_growth);
+  visit(KnobInfo{"guided_bounces", "scattering events",
+                 "so many first events of a path draw their directions with the table and teach it; the others sample "
+                 "the BSDF",
+                 1, 1024},
+        rl.guided_bounces);
   visit(KnobInfo{"roulette", "",
                  "what Russian roulette goes by: the path's throughput; what that would be had the BSDF drawn the "
                  "same directions (the first ends paths where the table sent many, since each then counts for less); "
