@@ -62,9 +62,10 @@ std::vector<std::uint32_t> share(std::int64_t sites, const std::vector<double>& 
 }  // namespace
 
 std::vector<std::uint32_t> site_counts(const Scene& scene, const RlSettings& settings) {
-  if (settings.total_sites > 0) return share(settings.total_sites, areas_of(scene));
-  check(settings.sites_per_object >= 1, "sites_per_object is {}: at least 1 is needed",
-        settings.sites_per_object);
+  check(settings.sites_per_object > 0 || settings.total_sites > 0,
+        "sites_per_object and total_sites are {} and {}: one of them must be above 0",
+        settings.sites_per_object, settings.total_sites);
+  if (settings.sites_per_object <= 0) return share(settings.total_sites, areas_of(scene));
   std::vector<std::uint32_t> counts;
   for (const Object& object : scene.objects) {
     counts.push_back(object.triangle_count > 0 ? static_cast<std::uint32_t>(settings.sites_per_object) : 0);

@@ -9,7 +9,7 @@
 
 namespace qtrace {
 
-// sites_per_object each; or, where total_sites is set, that many shared among the objects in proportion to
+// sites_per_object each; or, where that is 0, total_sites shared among the objects in proportion to
 // their area, so that sites stand about equally far apart all over the scene: at least one each, and rounded
 // by largest remainders (Hamilton's method), so that the sum is exact unless there are more objects than
 // sites. None on an object without triangles.

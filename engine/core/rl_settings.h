@@ -75,7 +75,7 @@ struct RlSettings {
   double rate_exponent = 0.7;
   CellKind cells = CellKind::voronoi;
   SitePlacement site_placement = SitePlacement::area;
-  int sites_per_object = 100;
+  int sites_per_object = 0;
   int total_sites = 1000;
   SiteSearch site_search = SiteSearch::lists;
   double cell_normal_threshold = 0.866;
@@ -120,13 +120,13 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
         rl.cells);
   visit(KnobInfo{"site_placement", "", "where Voronoi sites stand: through the UV map, or by area"},
         rl.site_placement);
-  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object, unless total_sites is set", 1,
+  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object; 0: total_sites", 0,
                  100000},
         rl.sites_per_object);
   visit(KnobInfo{"total_sites", "sites",
-                 "Voronoi sites of the whole scene, shared among its objects by area (at least one each); 0: "
-                 "sites_per_object",
-                 0, 1e7},
+                 "Voronoi sites of the whole scene, shared among its objects by area (at least one each), where "
+                 "sites_per_object is 0",
+                 1, 1e7},
         rl.total_sites);
   visit(
       KnobInfo{

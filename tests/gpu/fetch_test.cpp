@@ -2,6 +2,7 @@
 #include "engine/gpu/fetch.h"
 #include "engine/scene/gltf.h"
 #include "tests/support/render.h"
+#include "tests/support/report.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +17,7 @@ RadianceImage image_by(const Scene& scene, const RenderSettings& settings, gpu::
 TEST(Fetch, EveryWayRendersTheSame) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb");
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 32;
   settings.sampler = Sampler::rl;
   settings.nee = Nee::one_ray;

@@ -2,6 +2,7 @@
 #include "engine/scene/gltf.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
+#include "tests/support/report.h"
 
 #include <gtest/gtest.h>
 
@@ -115,6 +116,7 @@ class GroupOrder : public testing::TestWithParam<UpdateRule> {};
 
 Bits rendered(const Scene& scene, UpdateRule rule, const gpu::Defines& order) {
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 64;  // 64 work groups
   settings.rl.sites_per_object = 20;
   settings.rl.update = rule;

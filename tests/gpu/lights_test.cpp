@@ -3,6 +3,7 @@
 #include "engine/gpu/light_table.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
+#include "tests/support/report.h"
 #include "tests/support/statistics.h"
 
 #include <cmath>
@@ -189,6 +190,7 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   add_light(2.001F, false);
   scene.camera = look_at({0, 1, 0}, {0, 0, 1}, 1);
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 16;
   settings.sampler = Sampler::bsdf;
   settings.nee = Nee::one_ray;
@@ -217,6 +219,7 @@ TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, static_cast<std::uint32_t>(scene.materials.size() - 1));
   scene.camera = look_at({1, 1, 1}, {0, 0, 0}, 0.05F);
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 1;
   settings.sampler = Sampler::bsdf;

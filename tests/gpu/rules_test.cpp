@@ -2,6 +2,7 @@
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
+#include "tests/support/report.h"
 
 #include <cmath>
 
@@ -10,6 +11,7 @@ namespace {
 
 RenderSettings closed_settings(UpdateRule rule) {
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 16;
   settings.max_bounces = 24;  // monte_carlo knows no more than what a path reaches
   settings.russian_roulette_start = 24;
@@ -67,6 +69,20 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
     EXPECT_LT(errors[1], errors[0]);
     EXPECT_LT(errors[2], errors[1]);
   }
+}
+
+// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at its end,
+// and so on: Le / (1 - albedo) - Le.
+TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
+  if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
+  RenderSettings settings = closed_settings(GetParam());
+  settings.nee = Nee::two_ray;
+  settings.rl.learns = Learns::beyond_nee;
+  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
+  const std::vector<double> all(tracer.table()->values().size(), 1.0);
+  const auto errors = errors_after({4, 64, 400}, tracer, all);
+  EXPECT_LT(errors[2], 0.1);
+  EXPECT_LT(errors[2], errors[0]);
 }
 
 // Paths that roulette ends teach nothing beyond, and those that survive teach so much more.

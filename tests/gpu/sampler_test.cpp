@@ -5,6 +5,7 @@
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
+#include "tests/support/report.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,8 @@ Event the_event() {
   e.wo = -direction;
 #if SAMPLER == SAMPLER_RL
   e.cell = find_cell(e.surface);
+  e.is_guided = e.cell.index != NO_CELL;
+  e.bsdf_share = bsdf_share_of(e.cell);
 #endif
   return e;
 }
@@ -165,6 +168,7 @@ class Stage {
 
   static RenderSettings make_settings(const Case& c) {
     RenderSettings settings;
+    settings.rl = report_table();
     settings.width = settings.height = 16;
     settings.sampler = c.sampler;
     settings.rl.bsdf_fraction = c.bsdf_fraction;

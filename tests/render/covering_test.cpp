@@ -31,6 +31,7 @@ Kind states() {
   return {"state",
           {[](RenderSettings&) {}, [](RenderSettings& s) { s.rl.site_placement = SitePlacement::area; },
            [](RenderSettings& s) {
+             s.rl.sites_per_object = 0;
              s.rl.total_sites = 400;
              s.rl.site_placement = SitePlacement::area;
              s.rl.site_search = SiteSearch::linear;
@@ -55,6 +56,44 @@ Kind direct_light() {
   return kind;
 }
 
+Kind learns() {
+  return kind_of("learns", {Learns::all, Learns::beyond_nee},
+                 [](RenderSettings& s) -> Learns& { return s.rl.learns; });
+}
+
+// From values to directions, and when.
+Kind shaping() {
+  return {"shaping",
+          {[](RenderSettings&) {},
+           [](RenderSettings& s) {
+             s.rl.bin_weight = BinWeight::value_cosine;
+             s.rl.shrinkage = 4;
+           },
+           [](RenderSettings& s) {
+             s.rl.mixture = Mixture::learned;
+             s.rl.update_growth = 0.5;
+           },
+           [](RenderSettings& s) {
+             s.rl.bin_weight = BinWeight::value_cosine;
+             s.rl.shrinkage = 1;
+             s.rl.mixture = Mixture::learned;
+             s.rl.teach_frames = 4;
+             s.rl.guided_bounces = 1;
+           }}};
+}
+
+Kind roulette() {
+  Kind kind{"roulette", {}};
+  for (const Roulette by : {Roulette::throughput, Roulette::reflectance, Roulette::value}) {
+    kind.choices.push_back([by](RenderSettings& s) {
+      s.rl.roulette = by;
+      s.rl.roulette_scale = 1;
+      s.russian_roulette_start = 0;
+    });
+  }
+  return kind;
+}
+
 std::vector<Kind> kinds() {
   using U = UpdateRule;
   using L = LearningRate;
@@ -67,6 +106,9 @@ std::vector<Kind> kinds() {
           kind_of("initial", {I::zero, I::constant, I::random, I::cosine},
                   [](RenderSettings& s) -> I& { return s.rl.initial_table; }),
           direct_light(),
+          learns(),
+          shaping(),
+          roulette(),
           kind_of("bins", {BinMap::cylindrical, BinMap::concentric},
                   [](RenderSettings& s) -> BinMap& { return s.rl.bin_map; })};
 }

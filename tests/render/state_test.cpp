@@ -25,6 +25,22 @@ void expect_equal(const RadianceImage& a, const RadianceImage& b) {
   EXPECT_EQ(a.variance, b.variance);
 }
 
+// What waits for the next update is part of the state.
+TEST(State, HoldsWhatTheTableHasNotYetLearned) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = small_settings(Sampler::rl, LightChoice::learned);
+  settings.rl.mixture = Mixture::learned;
+  settings.rl.update_growth = 1;  // after frames 1, 2, 4, 8
+  Tracer whole(device(), scene, settings);
+  render(whole, 6);
+  Tracer later(device(), scene, settings);
+  later.restore(whole.state());
+  render(whole, 4);
+  render(later, 4);
+  expect_equal(later.radiance(), whole.radiance());
+  EXPECT_EQ(later.table()->values(), whole.table()->values());
+}
+
 class States : public testing::TestWithParam<std::pair<Sampler, LightChoice>> {
  protected:
   RenderSettings settings() const { return small_settings(GetParam().first, GetParam().second); }

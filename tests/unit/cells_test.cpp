@@ -2,6 +2,7 @@
 #include "engine/cells/sites.h"
 #include "engine/scene/analytic.h"
 #include "engine/scene/gltf.h"
+#include "tests/support/report.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -20,7 +21,7 @@ TEST(Hammersley, IsTheKnownSet) {
 }
 
 RlSettings sites_each(SitePlacement placement, int count) {
-  RlSettings settings;
+  RlSettings settings = test::report_table();
   settings.site_placement = placement;
   settings.sites_per_object = count;
   return settings;

@@ -57,7 +57,7 @@ TEST(Sweep, IsTheProductOfItsAxesLastFastest) {
   EXPECT_EQ(last.config.scene, "x/occluded.glb");
   EXPECT_EQ(last.config.render.rl.update, UpdateRule::q_learning);
   EXPECT_EQ(last.config.render.rl.bins_phi, 4);
-  EXPECT_EQ(last.config.render.rl.bins_theta, 10);
+  EXPECT_EQ(last.config.render.rl.bins_theta, RlSettings{}.bins_theta);
   EXPECT_EQ(last.config.render.seed, 2U);
 }
 

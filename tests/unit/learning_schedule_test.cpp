@@ -1,0 +1,66 @@
+// When a table learns, against sequences worked out by hand.
+#include "engine/tracer/learning_schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace qtrace {
+namespace {
+
+LearningSchedule schedule(int teach_frames, double update_growth) {
+  RlSettings rl;
+  rl.teach_frames = teach_frames;
+  rl.update_growth = update_growth;
+  return LearningSchedule(rl);
+}
+
+TEST(LearningSchedule, OfTheReportTeachesAndUpdatesEveryFrame) {
+  const LearningSchedule all = schedule(0, 0);
+  for (std::uint32_t frame = 1; frame <= 1000; ++frame) {
+    EXPECT_TRUE(all.teaches(frame));
+    EXPECT_TRUE(all.updates(frame));
+  }
+}
+
+// After the first n frames the share is n / frame, so that n (1 + ln(N / n)) of N frames have taught.
+TEST(LearningSchedule, TeachesEverMoreRarely) {
+  const LearningSchedule thinned = schedule(16, 0);
+  int taught = 0;
+  int last = 0;
+  int longest = 0;
+  for (int frame = 1; frame <= 4096; ++frame) {
+    if (!thinned.teaches(static_cast<std::uint32_t>(frame))) continue;
+    ++taught;
+    longest = std::max(longest, frame - last);
+    last = frame;
+  }
+  EXPECT_NEAR(taught, 16 * (1 + std::log(256.0)), 1);
+  EXPECT_LE(longest, 4096 / 16 + 1);
+  for (std::uint32_t frame = 1; frame <= 16; ++frame) EXPECT_TRUE(thinned.teaches(frame));
+}
+
+// With a quarter: after 4 it waits 1, after 8 it waits 2, after 12 it waits 3, ...
+TEST(LearningSchedule, UpdatesWhenEnoughFramesHavePassed) {
+  const LearningSchedule grown = schedule(0, 0.25);
+  std::vector<std::uint32_t> updates;
+  for (std::uint32_t frame = 1; frame <= 30; ++frame) {
+    if (grown.updates(frame)) updates.push_back(frame);
+  }
+  EXPECT_EQ(updates, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 15, 18, 22, 27}));
+}
+
+TEST(LearningSchedule, NeverWaitsLongerThanASumCanHold) {
+  const LearningSchedule grown = schedule(0, 1);
+  std::uint32_t last = 0;
+  for (std::uint32_t frame = 1; frame <= 5000; ++frame) {
+    if (!grown.updates(frame)) continue;
+    EXPECT_LE(frame - last, kMostFramesPerUpdate);
+    last = frame;
+  }
+  EXPECT_GT(last, 5000 - kMostFramesPerUpdate);
+}
+
+}  // namespace
+}  // namespace qtrace
