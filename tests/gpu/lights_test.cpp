@@ -178,7 +178,9 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(10))};
   add_quad(scene, {-10, 0, 0}, {0, 0, 20}, {20, 0, 0}, 0);  // its one site stands at (-10 + 20 v, 0, 20 u)
-  const CellSites sites = place_sites(scene, RlSettings{.sites_per_object = 1});
+  RlSettings one_site = report_table();
+  one_site.sites_per_object = 1;
+  const CellSites sites = place_sites(scene, one_site);
   const glm::vec3 corner = sites.sites[0].position - glm::vec3(0.05F, 0, 0.05F);
   const auto add_light = [&](float height, bool faces_down) {
     const glm::vec3 u(0.1F, 0, 0);

@@ -2,6 +2,7 @@
 #include "engine/tracer/inspection.h"
 
 #include "engine/scene/analytic.h"
+#include "tests/support/report.h"
 #include "tests/support/render.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ constexpr int kSize = 64;  // of hemispheres
 
 RenderSettings small_settings(int max_bounces = 3) {
   RenderSettings settings;
+  settings.rl = report_table();
   settings.width = settings.height = 24;
   settings.max_bounces = settings.russian_roulette_start = max_bounces;
   settings.rl.sites_per_object = 20;

@@ -1,4 +1,5 @@
 // Experiments from end to end: files, repeatability, references, failures.
+#include "engine/core/settings.h"
 #include "tests/system/run_program.h"
 
 #include <cmath>
@@ -43,7 +44,7 @@ TEST_F(RunProgram, TablesAndManifestsAgree) {
   const Json manifest = json(base + "manifest.json");
   EXPECT_EQ(manifest.at("status"), "finished");
   EXPECT_EQ(manifest.at("config").at("sampler"), "rl");
-  EXPECT_EQ(manifest.at("config").at("rl").at("bins_phi"), 10);
+  EXPECT_EQ(manifest.at("config").at("rl").at("bins_phi"), RlSettings{}.bins_phi);
   EXPECT_EQ(manifest.at("axes").at("method"), "RL");
   EXPECT_GT(manifest.at("cells").get<int>(), 0);
   EXPECT_TRUE(manifest.at("device").contains("gl_version"));
