@@ -8,6 +8,7 @@ import argparse
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 if not __package__:  # run as a script: import from the repository, and keep this folder from hiding `statistics`
     sys.path[0] = str(Path(__file__).resolve().parents[1])
@@ -20,6 +21,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from analysis import command, style
 from analysis.exr import ExrError, ExrImage, read_exr
+from analysis.load import read_manifest
 from analysis.tonemap import tonemap
 
 CELL_CHANNELS = ["cell", "visits", "R", "G", "B"]
@@ -103,7 +105,14 @@ def _draw_hemispheres(part: SubFigure, hemisphere: ExrImage) -> None:
                   extend="max" if clipped else "neither")
 
 
-def inspection_figure(cells: ExrImage, hemisphere: ExrImage, pixel: tuple[int, int], name: str) -> Figure:
+def table_note(config: dict[str, Any]) -> str:
+    """What a reader must know before comparing learned with true; empty where both show the same."""
+    learns_rest = config.get("rl", {}).get("learns", "all") == "beyond_nee" and config.get("nee", "none") != "none"
+    return " Learned: what next event estimation leaves of it to the path's own rays." if learns_rest else ""
+
+
+def inspection_figure(cells: ExrImage, hemisphere: ExrImage, pixel: tuple[int, int], name: str,
+                      note: str = "") -> Figure:
     facts = hemisphere.metadata
     height, width = cells.channels["cell"].shape
     with matplotlib.rc_context({**style.RC, "axes.grid": False}):
@@ -117,7 +126,7 @@ def inspection_figure(cells: ExrImage, hemisphere: ExrImage, pixel: tuple[int, i
                         "radiance from the hemisphere about the normal", fontsize=11)
         _draw_hemispheres(bottom, hemisphere)
         figure.supxlabel("Lambert's equal-area projection, the horizon outside. True: path traced from that point, "
-                         f"{facts.get('samples', '?')} paths per pixel.", fontsize=8.5, color="0.25")
+                         f"{facts.get('samples', '?')} paths per pixel.{note}", fontsize=8.5, color="0.25")
     return figure
 
 
@@ -132,7 +141,9 @@ def main(arguments: list[str] | None = None) -> None:
     run = _arguments(arguments).run
     cells, hemisphere, pixel = read_inspection(run)
     resolved = run.resolve()
-    figure = inspection_figure(cells, hemisphere, pixel, f"{resolved.parent.name}/{resolved.name}")
+    manifest = run / "manifest.json"
+    config = read_manifest(manifest).get("config", {}) if manifest.is_file() else {}
+    figure = inspection_figure(cells, hemisphere, pixel, f"{resolved.parent.name}/{resolved.name}", table_note(config))
     file = run / "inspect" / "inspect.png"
     with matplotlib.rc_context({**style.RC, "axes.grid": False}):
         command.write_whole(file, lambda target: figure.savefig(target, format="png", dpi=DPI))

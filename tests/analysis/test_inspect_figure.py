@@ -5,7 +5,7 @@ from support import FolderTest, write_exr_channels
 import numpy as np
 from matplotlib.text import Text
 
-from analysis.inspect_figure import hemisphere_panels, inspection_figure, main, radiance_scale, read_inspection
+from analysis.inspect_figure import hemisphere_panels, inspection_figure, main, radiance_scale, read_inspection, table_note
 
 SIDE = 6
 PIXEL = (3, 1)  # x, y
@@ -55,6 +55,13 @@ class InspectTest(FolderTest):
         np.testing.assert_allclose(images["true"].data[inside], mean[inside], rtol=1e-6)
         visits = images["visits per cell (grey: none)"]
         np.testing.assert_array_equal(visits.mask, cell_channels()["visits"] == 0)
+
+    def test_says_where_a_table_holds_less_than_all_light(self) -> None:
+        rest = {"nee": "one_ray", "rl": {"learns": "beyond_nee"}}
+        figure = inspection_figure(*read_inspection(self.run_folder), "study/seed=1", table_note(rest))
+        self.assertIn("what next event estimation leaves", texts(figure))
+        for whole in ({"nee": "none", "rl": {"learns": "beyond_nee"}}, {"nee": "one_ray", "rl": {"learns": "all"}}, {}):
+            self.assertEqual(table_note(whole), "")
 
     def test_hemispheres_share_a_scale_up_to_the_brightest_bin(self) -> None:
         figure = self.figure()
