@@ -68,9 +68,13 @@ class Builder {
 
 }  // namespace
 
-Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size) {
+void check_buildable(const Scene& scene, std::uint32_t leaf_size) {
   check(leaf_size >= 1 && leaf_size <= 15, "BVH leaf size {} is outside 1..15", leaf_size);
   check(!scene.triangles.empty(), "scene {} has no triangles: there is nothing to render", scene.name);
+}
+
+Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size) {
+  check_buildable(scene, leaf_size);
   return Builder(scene, leaf_size).take();
 }
 

@@ -12,8 +12,7 @@
 namespace qtrace {
 
 inline constexpr std::uint32_t kNoNode = 0xffffffff;
-// Deepest leaf, the root being at 0: shaders keep a stack of as many links (BVH_DEPTH in
-// shaders/structs.glsl).
+// Deepest leaf, the root being at 0: shaders keep a stack of as many links.
 inline constexpr int kMaxBvhDepth = 62;
 
 // Nodes stand in preorder: the hit link of an inner node, its first child, is the next node. Its second child
@@ -31,6 +30,9 @@ struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
+
+// Throws Error where a hierarchy cannot be built: for a scene without triangles, or leaves of none or over 15.
+void check_buildable(const Scene& scene, std::uint32_t leaf_size);
 
 // The report's (section 4.1): split at the median of the triangles' centres along the longest axis.
 // `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.

@@ -1,6 +1,5 @@
 #include "engine/accel/bounds.h"
 #include "engine/accel/bvh.h"
-#include "engine/core/check.h"
 
 #include <algorithm>
 #include <array>
@@ -184,8 +183,7 @@ class Builder {
 }  // namespace
 
 Bvh build_sah_bvh(const Scene& scene, std::uint32_t leaf_size) {
-  check(leaf_size >= 1 && leaf_size <= 15, "BVH leaf size {} is outside 1..15", leaf_size);
-  check(!scene.triangles.empty(), "scene {} has no triangles: there is nothing to render", scene.name);
+  check_buildable(scene, leaf_size);
   return Builder(scene, leaf_size).build();
 }
 

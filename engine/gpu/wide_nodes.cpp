@@ -9,6 +9,10 @@
 namespace qtrace::gpu {
 namespace {
 
+// The walk's stack (traverse_ordered.glsl): its end, a link for each inner node above a leaf, and one place that is
+// written before it is known to be needed.
+static_assert(BVH_DEPTH >= kMaxBvhDepth + 2);
+
 constexpr double kSteps = 65535;
 // An axis along which the scene is flatter than this part of its largest extent, or than this part of the way
 // to the eye, has the steps of one that is not: else all of the grid's digits were lost to the eye's

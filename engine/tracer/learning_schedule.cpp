@@ -19,8 +19,8 @@ bool LearningSchedule::teaches(std::uint32_t frame) const {
 bool LearningSchedule::updates(std::uint32_t frame) const {
   std::uint32_t update = 0;
   while (update < frame) {
-    const auto step = static_cast<std::uint32_t>(std::min(growth_ * update, 1.0 * kMostFramesPerUpdate));
-    if (step == kMostFramesPerUpdate) return (frame - update) % step == 0;
+    const auto step = static_cast<std::uint32_t>(std::min(growth_ * update, 1.0 * most_));
+    if (step == most_) return (frame - update) % step == 0;
     update += std::max(step, 1U);
   }
   return update == frame;

@@ -8,12 +8,13 @@
 
 namespace qtrace {
 
-// Frames between two updates, at most: what they teach one entry must fit its sum.
+// Frames between two updates, at most; fewer where what they teach one entry would not fit its sum (limits.h).
 inline constexpr std::uint32_t kMostFramesPerUpdate = 32;
 
 class LearningSchedule {
  public:
-  explicit LearningSchedule(const RlSettings& rl) : teach_frames_(rl.teach_frames), growth_(rl.update_growth) {}
+  explicit LearningSchedule(const RlSettings& rl, std::uint32_t most_frames_per_update = kMostFramesPerUpdate)
+      : teach_frames_(rl.teach_frames), growth_(rl.update_growth), most_(most_frames_per_update) {}
 
   // Whether frame `frame` (from 1) gathers targets: each of the first teach_frames, then a share of teach_frames /
   // frame, evenly spread.
@@ -24,6 +25,7 @@ class LearningSchedule {
  private:
   int teach_frames_;
   double growth_;
+  std::uint32_t most_;
 };
 
 }  // namespace qtrace

@@ -62,15 +62,16 @@ void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const 
 constexpr std::uint32_t kMostTargets =
     1U << (gpu::SUM_LOW_COUNT_BITS + gpu::SUM_MIDDLE_COUNT_BITS + gpu::SUM_HIGH_COUNT_BITS);
 
-void check_targets(const RenderSettings& settings, std::size_t pixels) {
-  // A direction and a light at each event.
-  const double frames = settings.rl.update_growth > 0 ? kMostFramesPerUpdate : 1;
-  const double most = 2 * frames * static_cast<double>(pixels) * (settings.max_bounces + 1.0);
-  check(most < kMostTargets,
-        "{}x{} pixels with max_bounces {} may teach one entry of the table {:.0f} times in a frame, and up "
-        "to {} "
-        "are counted; lower width, height or max_bounces",
-        settings.width, settings.height, settings.max_bounces, most, kMostTargets - 1);
+std::uint64_t most_targets_in_a_frame(const RenderSettings& settings) {
+  const auto paths = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+  return paths * (static_cast<std::uint64_t>(settings.max_bounces) + 1);
+}
+
+void check_targets(const RenderSettings& settings) {
+  check(frames_per_update(settings) > 0,
+        "{}x{} pixels with max_bounces {} may teach one entry of the table {} times in a frame, and up to {} are "
+        "counted; lower width, height or max_bounces",
+        settings.width, settings.height, settings.max_bounces, most_targets_in_a_frame(settings), kMostTargets - 1);
 }
 
 void check_lessons(const RenderSettings& settings) {
@@ -88,6 +89,11 @@ static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) &&
               sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSample) &&
               sizeof(gpu::FirstHit) >= sizeof(gpu::PixelOutliers));
 
+std::uint32_t frames_per_update(const RenderSettings& settings) {
+  const std::uint64_t frames = (kMostTargets - 1) / most_targets_in_a_frame(settings);
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(frames, kMostFramesPerUpdate));
+}
+
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   const auto pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
   gpu::check_buffer_size("first hits", pixels * sizeof(gpu::FirstHit));  // the largest of those with pixels
@@ -96,7 +102,7 @@ void check_limits(const gpu::Context& context, const Scene& scene, const RenderS
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
   const std::size_t columns = table_columns(effective, features);
-  check_targets(effective, pixels);
+  check_targets(effective);
   CellBuffers::check_size(scene, settings.rl);
   QTable::check_size(CellBuffers::count(scene, settings.rl), columns);
   check_loop_budget(context.device(), scene, effective, columns);

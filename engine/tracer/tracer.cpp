@@ -32,7 +32,7 @@ struct Tracer::State {
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height, context.programs()),
-        schedule(settings.rl),
+        schedule(settings.rl, frames_per_update(settings)),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {

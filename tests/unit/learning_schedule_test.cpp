@@ -1,6 +1,8 @@
 // When a table learns, against sequences worked out by hand.
 #include "engine/tracer/learning_schedule.h"
 
+#include "engine/tracer/limits.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,6 +62,25 @@ TEST(LearningSchedule, NeverWaitsLongerThanASumCanHold) {
     last = frame;
   }
   EXPECT_GT(last, 5000 - kMostFramesPerUpdate);
+}
+
+// 2^29 targets are counted: 1920 x 1080 paths with six events each may teach one entry 43 times so often, and with 300
+// events not once.
+TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
+  RenderSettings settings;
+  settings.width = settings.height = 128;
+  settings.max_bounces = 8;
+  EXPECT_EQ(frames_per_update(settings), kMostFramesPerUpdate);
+  settings.width = 1920;
+  settings.height = 1080;
+  settings.max_bounces = 5;
+  EXPECT_EQ(frames_per_update(settings), kMostFramesPerUpdate);
+  settings.max_bounces = 63;
+  EXPECT_EQ(frames_per_update(settings), 4U);
+  settings.max_bounces = 300;
+  EXPECT_EQ(frames_per_update(settings), 0U);
+  const LearningSchedule grown(RlSettings{}, 4);
+  for (std::uint32_t frame = 100; frame < 200; ++frame) EXPECT_EQ(grown.updates(frame), frame % 4 == 0) << frame;
 }
 
 }  // namespace
