@@ -31,7 +31,8 @@ struct Bvh {
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
 
-// Throws Error where a hierarchy cannot be built: for a scene without triangles, or leaves of none or over 15.
+// Throws Error where a hierarchy cannot be built: for a scene without triangles, or leaves of none or
+// over 15.
 void check_buildable(const Scene& scene, std::uint32_t leaf_size);
 
 // The report's (section 4.1): split at the median of the triangles' centres along the longest axis.

@@ -69,9 +69,11 @@ std::uint64_t most_targets_in_a_frame(const RenderSettings& settings) {
 
 void check_targets(const RenderSettings& settings) {
   check(frames_per_update(settings) > 0,
-        "{}x{} pixels with max_bounces {} may teach one entry of the table {} times in a frame, and up to {} are "
+        "{}x{} pixels with max_bounces {} may teach one entry of the table {} times in a frame, and up to {} "
+        "are "
         "counted; lower width, height or max_bounces",
-        settings.width, settings.height, settings.max_bounces, most_targets_in_a_frame(settings), kMostTargets - 1);
+        settings.width, settings.height, settings.max_bounces, most_targets_in_a_frame(settings),
+        kMostTargets - 1);
 }
 
 void check_lessons(const RenderSettings& settings) {

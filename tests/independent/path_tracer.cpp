@@ -34,17 +34,13 @@ struct Point {
 class Tracer {
  public:
   Tracer(const Scene& scene, const Options& options) : scene_(scene), options_(options), bvh_(scene) {
-    double sum = 0;
     glm::dvec3 lo(1e300), hi(-1e300);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
       for (const glm::vec3& p : scene.triangles[i].position)
         lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
       const glm::dvec3 emission(scene.materials[scene.triangles[i].material].emission);
       const double power = area_of(scene.triangles[i]) * (emission.x + emission.y + emission.z);
-      if (power <= 0) continue;
-      lights_.push_back(i);
-      chances_.push_back(power);
-      sums_.push_back(sum += power);
+      if (power > 0) lights_.push_back({i, power});
     }
     epsilon_ = 1e-9 * glm::length(hi - lo);
   }
@@ -113,12 +109,41 @@ class Tracer {
     return front || material.double_sided ? glm::dvec3(material.emission) : glm::dvec3(0);
   }
 
-  // One point on one light, both by power.
+  struct Light {
+    std::uint32_t triangle;
+    double power;
+  };
+
+  // Its power over the squared distance of its middle; its area keeps that finite.
+  double weight(const Light& light, const glm::dvec3& from) const {
+    const Triangle& t = scene_.triangles[light.triangle];
+    const glm::dvec3 way =
+        (glm::dvec3(t.position[0]) + glm::dvec3(t.position[1]) + glm::dvec3(t.position[2])) / 3.0 - from;
+    return light.power / (glm::dot(way, way) + area_of(t));
+  }
+
+  struct Choice {
+    const Light* light;
+    double chance;
+  };
+
+  Choice choose_light(const glm::dvec3& from, Random& random) const {
+    double sum = 0;
+    for (const Light& light : lights_) sum += weight(light, from);
+    double left = random() * sum;
+    for (const Light& light : lights_) {
+      const double w = weight(light, from);
+      if (left < w || &light == &lights_.back()) return {&light, w / sum};
+      left -= w;
+    }
+    return {};
+  }
+
+  // One light, and one point on it by area.
   glm::dvec3 direct(const Point& p, Random& random) const {
     if (lights_.empty()) return glm::dvec3(0);
-    const auto found = std::upper_bound(sums_.begin(), sums_.end(), random() * sums_.back()) - sums_.begin();
-    const auto i = std::min(static_cast<std::size_t>(found), lights_.size() - 1);
-    const Triangle& light = scene_.triangles[lights_[i]];
+    const Choice choice = choose_light(p.position, random);
+    const Triangle& light = scene_.triangles[choice.light->triangle];
     const double root = std::sqrt(random());
     const double part = random();
     const glm::dvec3 target = (1 - root) * glm::dvec3(light.position[0]) +
@@ -134,7 +159,7 @@ class Tracer {
     }
     const double relative = epsilon_ / std::sqrt(distance2);
     if (bvh_.closest({p.position, way}, relative, 1 - relative)) return glm::dvec3(0);
-    const double pdf = chances_[i] / sums_.back() / area_of(light);
+    const double pdf = choice.chance / area_of(light);
     return reflect(*p.material, p.normal, direction, p.eye) * radiance *
            (glm::dot(direction, p.normal) * std::abs(facing) / distance2 / pdf);
   }
@@ -168,8 +193,7 @@ class Tracer {
   const Scene& scene_;
   Options options_;
   Bvh bvh_;
-  std::vector<std::uint32_t> lights_;
-  std::vector<double> chances_, sums_;
+  std::vector<Light> lights_;
   double epsilon_ = 0;
 };
 

@@ -64,8 +64,8 @@ TEST(LearningSchedule, NeverWaitsLongerThanASumCanHold) {
   EXPECT_GT(last, 5000 - kMostFramesPerUpdate);
 }
 
-// 2^29 targets are counted: 1920 x 1080 paths with six events each may teach one entry 43 times so often, and with 300
-// events not once.
+// 2^29 targets are counted: 1920 x 1080 paths with six events each may teach one entry 43 times so often, and
+// with 300 events not once.
 TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
   RenderSettings settings;
   settings.width = settings.height = 128;
@@ -80,7 +80,8 @@ TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
   settings.max_bounces = 300;
   EXPECT_EQ(frames_per_update(settings), 0U);
   const LearningSchedule grown(RlSettings{}, 4);
-  for (std::uint32_t frame = 100; frame < 200; ++frame) EXPECT_EQ(grown.updates(frame), frame % 4 == 0) << frame;
+  for (std::uint32_t frame = 100; frame < 200; ++frame)
+    EXPECT_EQ(grown.updates(frame), frame % 4 == 0) << frame;
 }
 
 }  // namespace
