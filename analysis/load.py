@@ -134,7 +134,7 @@ def read_manifest(file: Path) -> dict[str, Any]:
     return manifest
 
 
-def _check_schema(folder: Path, manifest: dict[str, Any]) -> None:
+def check_schema(folder: Path, manifest: dict[str, Any]) -> None:
     schema = manifest.get("schema", 0)
     if not isinstance(schema, int) or schema < 0:
         raise LoadError(f"{folder / 'manifest.json'}: schema is {schema!r} but must be a whole number")
@@ -151,7 +151,7 @@ def load(results: str | os.PathLike[str]) -> Results:
     if not (folder / "summary.csv").is_file():
         raise LoadError(f"{folder}: has no summary.csv, so it is not the folder of an experiment")
     experiment = read_manifest(folder / "manifest.json")
-    _check_schema(folder, experiment)
+    check_schema(folder, experiment)
     summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS)
     summary.insert(2, "label", _labels(summary))
     finished = summary[summary.status == "finished"]

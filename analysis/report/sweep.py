@@ -95,6 +95,19 @@ def _manifests(folder: Path, runs: list[Row], gaps: list[str]) -> dict[str, dict
     return manifests
 
 
+def _cells(folder: Path, manifest: dict[str, Any], gaps: list[str]) -> list[Row]:
+    file = folder / "cells.csv"
+    if file.is_file():
+        return read_rows(file, load.CELLS_COLUMNS)
+    if manifest.get("schema", 0) == 0:  # older than that file
+        gaps.append(f"{file}: no such file, as in results of early versions: means over seeds come from summary.csv")
+        cells = load.cells_of(read_csv(folder / "summary.csv", load.SUMMARY_COLUMNS))
+        return [{key: "" if pd.isna(value) else str(value) for key, value in row.items()}
+                for row in cells.to_dict("records")]
+    gaps.append(f"{file}: no such file, so there are no means over seeds; `qtrace run` writes it")
+    return []
+
+
 def read_sweep(folder: Path) -> Sweep:
     """Raises LoadError where there is no experiment, or its tables cannot be read."""
     if not folder.is_dir():
@@ -102,18 +115,15 @@ def read_sweep(folder: Path) -> Sweep:
     if not (folder / "summary.csv").is_file():
         raise LoadError(f"{folder}: has no summary.csv, so it is not the folder of an experiment")
     manifest = load.read_manifest(folder / "manifest.json")
+    load.check_schema(folder, manifest)
     summary = read_rows(folder / "summary.csv", load.SUMMARY_COLUMNS)
     gaps: list[str] = []
-    optional = {}
-    for name, needed in (("cells.csv", load.CELLS_COLUMNS), ("ratios.csv", load.RATIOS_COLUMNS)):
-        is_there = (folder / name).is_file()
-        optional[name] = read_rows(folder / name, needed) if is_there else []
-        if not is_there and name == "cells.csv":
-            gaps.append(f"{folder / name}: no such file, so there are no means over seeds; `qtrace run` writes it")
-    for rows in (summary, optional["cells.csv"]):
+    cells = _cells(folder, manifest, gaps)
+    file = folder / "ratios.csv"
+    ratios = read_rows(file, load.RATIOS_COLUMNS) if file.is_file() else []
+    for rows in (summary, cells):
         _label(rows)
-    members = {cell["cell"]: _members([row for row in summary if row["cell"] == cell["cell"]])
-               for cell in optional["cells.csv"]}
+    members = {cell["cell"]: _members([row for row in summary if row["cell"] == cell["cell"]]) for cell in cells}
     counting = [row for rows in members.values() for row in rows]
-    return Sweep(folder, manifest, summary, optional["cells.csv"], {row["cell"]: row for row in optional["ratios.csv"]},
+    return Sweep(folder, manifest, summary, cells, {row["cell"]: row for row in ratios},
                  members, _convergence(folder, counting, gaps), _manifests(folder, counting, gaps), gaps)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from support import FolderTest
 
-from analysis import figures
+from analysis import figures, report_page
 from analysis.comparison import compare
 from analysis.load import SCHEMA, LoadError, load
 from analysis.statistics import estimate
@@ -39,6 +39,18 @@ class OldResultsTest(FolderTest):
         self.assertIn("rl", (self.results / "figures" / "table.md").read_text())
         result = compare(load(self.results), load(OLD))
         self.assertEqual({row.verdict for row in result.rows}, {"same"})
+
+    def test_the_page_has_their_cells(self) -> None:
+        code, out, err = self.run_script(report_page.main, self.results)
+        self.assertEqual((code, err), (0, ""))
+        page = Path(out.strip()).read_text(encoding="utf-8")
+        self.assertIn("means over seeds come from summary.csv", page)
+        for relmse in load(self.results).cells.relmse:
+            self.assertIn(f'data-value="{relmse}"', page)
+        self.set_schema(SCHEMA + 1)
+        code, _, err = self.run_script(report_page.main, self.results)
+        self.assertEqual(code, 1)
+        self.assertIn(f"but this analysis reads {SCHEMA}", err)
 
     def set_schema(self, schema: object) -> None:
         file = self.results / "manifest.json"
