@@ -70,7 +70,7 @@ class Results:
         # Results of schema 0 may be older than that file.
         is_old = self.schema == 0 and not file.is_file()
         cells = cells_of(self.summary) if is_old else read_csv(file, CELLS_COLUMNS)
-        cells.insert(1, "label", _labels(cells))
+        cells.insert(1, "label", labels_of(cells))
         return cells
 
     @property
@@ -103,7 +103,7 @@ def _part(axis: str, label: str) -> str:
     return f"{axis.rpartition('.')[2]}={label}"
 
 
-def _labels(summary: pd.DataFrame) -> list[str]:
+def labels_of(summary: pd.DataFrame) -> list[str]:
     """The cell without its scene: what tells the curves of one panel apart."""
     axes = [a for a in axis_columns(summary) if a not in ("axis:scene", "axis:seed")]
     if not axes:
@@ -153,7 +153,7 @@ def load(results: str | os.PathLike[str]) -> Results:
     experiment = read_manifest(folder / "manifest.json")
     check_schema(folder, experiment)
     summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS)
-    summary.insert(2, "label", _labels(summary))
+    summary.insert(2, "label", labels_of(summary))
     finished = summary[summary.status == "finished"]
     if finished.empty:
         raise LoadError(f"{folder}: none of its {len(summary)} runs is finished")

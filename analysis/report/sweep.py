@@ -58,7 +58,7 @@ def read_rows(file: Path, needed: list[str]) -> list[Row]:
 
 def _label(rows: list[Row]) -> None:
     """Adds what tells the cells of one scene apart, as the curves of `./dev plot` are labelled."""
-    for row, label in zip(rows, load._labels(pd.DataFrame(rows)) if rows else []):
+    for row, label in zip(rows, load.labels_of(pd.DataFrame(rows)) if rows else []):
         row["label"] = label
 
 
