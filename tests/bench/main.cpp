@@ -2,6 +2,7 @@
 #include "engine/core/check.h"
 #include "experiments/atomic_file.h"
 #include "experiments/manifest.h"
+#include "tests/bench/design_bench.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/ray_bench.h"
@@ -57,7 +58,7 @@ void add_options(CLI::App& app, Options& options) {
   constexpr int kTile = 8;
   app.add_flag("--quick", options.quick, "a minute instead of a quarter of an hour, with wider spreads");
   app.add_option("--only", options.only, "one part of it")
-      ->check(CLI::IsMember({"rays", "frames", "steps", "growth"}));
+      ->check(CLI::IsMember({"rays", "frames", "steps", "designs", "growth"}));
   app.add_option("--scenes", options.rays.scenes, "of the rays: glTF files, or room:TRIANGLES")
       ->delimiter(',')
       ->capture_default_str();
@@ -110,6 +111,9 @@ int run(int argc, char** argv) {
   }
   if (wants("steps")) {
     bench_steps(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+  }
+  if (wants("designs")) {
+    bench_designs(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),

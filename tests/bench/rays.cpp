@@ -116,6 +116,14 @@ std::optional<BenchRay> shadow_ray(const SurfacePoint& light, glm::vec3 surface,
   return BenchRay{glm::vec4(start, 0), glm::vec4(surface - start, 0)};
 }
 
+// Spreads the lowest ten bits of a number over every third place.
+std::uint32_t spread_bits(std::uint32_t v) {
+  v = (v | v << 16) & 0x030000ffU;
+  v = (v | v << 8) & 0x0300f00fU;
+  v = (v | v << 4) & 0x030c30c3U;
+  return (v | v << 2) & 0x09249249U;
+}
+
 }  // namespace
 
 RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size) {
@@ -136,6 +144,28 @@ RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size) {
     if (const auto ray = shadow_ray(points.next(units), origin, normal)) rays.shadow.push_back(*ray);
   }
   return rays;
+}
+
+std::vector<BenchRay> sorted_rays(const std::vector<BenchRay>& rays) {
+  constexpr float kSteps = 1023;
+  glm::vec3 lo(std::numeric_limits<float>::infinity());
+  glm::vec3 hi = -lo;
+  for (const BenchRay& ray : rays) {
+    lo = glm::min(lo, glm::vec3(ray.origin));
+    hi = glm::max(hi, glm::vec3(ray.origin));
+  }
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (const BenchRay& ray : rays) {
+    const glm::uvec3 place(kSteps * (glm::vec3(ray.origin) - lo) / glm::max(hi - lo, glm::vec3(1e-20F)));
+    const std::uint64_t octant =
+        (ray.direction.x < 0 ? 1U : 0U) | (ray.direction.y < 0 ? 2U : 0U) | (ray.direction.z < 0 ? 4U : 0U);
+    const std::uint32_t along = spread_bits(place.x) | spread_bits(place.y) << 1 | spread_bits(place.z) << 2;
+    order.emplace_back(octant << 32 | along, order.size());
+  }
+  std::ranges::sort(order);
+  std::vector<BenchRay> sorted;
+  for (const auto& [key, index] : order) sorted.push_back(rays[index]);
+  return sorted;
 }
 
 }  // namespace qtrace::bench

@@ -44,4 +44,7 @@ class EmbreeScene;
 // which are as likely, or on any surface where there is no light.
 RaySets make_rays(const Scene& scene, const EmbreeScene& embree, int size);
 
+// By the octant of their directions, then along a Morton curve through their origins.
+std::vector<BenchRay> sorted_rays(const std::vector<BenchRay>& rays);
+
 }  // namespace qtrace::bench

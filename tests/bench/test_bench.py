@@ -77,6 +77,18 @@ class BenchTest(unittest.TestCase):
             self.assertEqual(len(shares), 6)
             self.assertAlmostEqual(sum(shares.values()), 1, delta=0.3)
 
+    def test_designs_beside_the_frame(self) -> None:
+        rows = rows_of(self.out / "designs.csv")
+        for scene in ("simple", "room:200000"):
+            over = {row["design"]: float(row["cpu_over_frame"]) for row in rows if row["scene"] == scene}
+            self.assertEqual(over.pop("the frame: one kernel"), 1)
+            self.assertEqual(len(over), 7)
+            self.assertGreater(min(over.values()), 0)
+            queries, states, both = (over[f"wavefront: {what}"] for what in
+                                     ("its ray queries", "its path states", "both, without shading"))
+            # Medians of ratios, by so few rounds, add up nearly.
+            self.assertAlmostEqual(queries + states, both, delta=0.3 * both)
+
     def test_growth_along_every_axis(self) -> None:
         rows = rows_of(self.out / "growth.csv")
         values = {}
