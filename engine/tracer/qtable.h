@@ -24,6 +24,8 @@ class QTable {
   // Applies the targets that a frame gathered and prepares what the next one draws from. Parameters must be
   // bound.
   void learn();
+  // Forgets what was gathered and not yet applied.
+  void discard();
   // As at the start: initial values, nothing visited. Parameters must be bound.
   void reset();
 
@@ -45,7 +47,6 @@ class QTable {
   void set_values(std::span<const float> values);
 
  private:
-  void discard();      // what was gathered
   void apply();        // to the cells that are listed
   void prepare_all();  // as if every cell had been taught something
   void forget_touched();

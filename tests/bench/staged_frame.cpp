@@ -99,6 +99,7 @@ void StagedFrame::trace(TraceForm form) {
   film_.start_frame();
   gpu::Program& program = trace_[static_cast<std::size_t>(form)];
   program.set_frame(frame_);
+  program.set_teaches(true);
   program.dispatch(tiles(settings_.width), tiles(settings_.height));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/image.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/scene_buffers.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/qtable.h"
