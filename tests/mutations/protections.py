@@ -60,5 +60,5 @@ PROTECTIONS = [
         "shaders/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
     Protection("full sums stay full", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",
                                        "TargetsBeyondTheFixedPointAreCounted"), (Edit(
-        "shaders/learn.comp", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
+        "shaders/gathered.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
 ]
