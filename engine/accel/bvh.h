@@ -31,10 +31,6 @@ struct Bvh {
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
 
-// Throws Error where a hierarchy cannot be built: for a scene without triangles, or leaves of none or
-// over 15.
-void check_buildable(const Scene& scene, std::uint32_t leaf_size);
-
 // The report's (section 4.1): split at the median of the triangles' centres along the longest axis.
 // `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.
 Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size);

@@ -1,4 +1,5 @@
 #include "engine/accel/bvh.h"
+#include "engine/accel/bvh_input.h"
 
 #include "engine/accel/bounds.h"
 

@@ -1,5 +1,6 @@
 #include "engine/accel/bounds.h"
 #include "engine/accel/bvh.h"
+#include "engine/accel/bvh_input.h"
 
 #include <algorithm>
 #include <array>
