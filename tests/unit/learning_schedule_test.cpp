@@ -80,8 +80,12 @@ TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
   settings.max_bounces = 300;
   EXPECT_EQ(frames_per_update(settings), 0U);
   const LearningSchedule grown(RlSettings{}, 4);
-  for (std::uint32_t frame = 100; frame < 200; ++frame)
-    EXPECT_EQ(grown.updates(frame), frame % 4 == 0) << frame;
+  std::vector<std::uint32_t> updates;
+  for (std::uint32_t frame = 100; frame < 200; ++frame) {
+    if (grown.updates(frame)) updates.push_back(frame);
+  }
+  EXPECT_EQ(updates.size(), 25U);
+  for (std::size_t i = 1; i < updates.size(); ++i) EXPECT_EQ(updates[i] - updates[i - 1], 4U);
 }
 
 }  // namespace
