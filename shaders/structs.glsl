@@ -247,6 +247,7 @@ const uint LEAF_BITS = 4u;
 const uint LEAF_LINK = 0x80000000u;
 const uint END_OF_WALK = 0xffffffffu;
 const uint BVH_DEPTH = 64u;
+const uint TRACE_GROUP = 64u;  // invocations of a work group, at most, of what traverses
 const uint ACCUMULATE_GROUP_PIXELS = 256u;  // of a work group of accumulate.comp
 const uint LEARN_GROUP = 64u;  // invocations of a work group of learn.comp and initial_table.comp
 const uint LIST_BOX_BITS = 10u;
