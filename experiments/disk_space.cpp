@@ -32,8 +32,8 @@ double table_entries(const RunConfig& config, const Scene& scene) {
     return kNormals * rl.grid_resolution * rl.grid_resolution * rl.grid_resolution * bins;
   }
   const double sites = rl.sites_per_object > 0 ? static_cast<double>(rl.sites_per_object) *
-                                                    static_cast<double>(scene.objects.size())
-                                              : static_cast<double>(rl.total_sites);
+                                                     static_cast<double>(scene.objects.size())
+                                               : static_cast<double>(rl.total_sites);
   return sites * bins;
 }
 

@@ -31,7 +31,8 @@ void visit_knobs(Visitor& visit, ExperimentKeys& keys) {
                  "every cell that differs from it in one label alone; empty: no ratios"},
         keys.baseline);
   visit(KnobInfo{"preset", "",
-                 "a file with settings of a run, relative to the config; what the config sets itself overrides them"},
+                 "a file with settings of a run, relative to the config; what the config sets itself "
+                 "overrides them"},
         keys.preset);
 }
 

@@ -102,10 +102,11 @@ struct RlSettings {
 template <class Visitor>
 void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"update", "", "target of the temporal-difference update"}, rl.update);
-  visit(KnobInfo{"learns", "",
-                 "what a value holds: all radiance that arrives, or what of it next event estimation leaves to "
-                 "the path's own rays"},
-        rl.learns);
+  visit(
+      KnobInfo{"learns", "",
+               "what a value holds: all radiance that arrives, or what of it next event estimation leaves to "
+               "the path's own rays"},
+      rl.learns);
   visit(
       KnobInfo{
           "learning_rate", "",
@@ -120,14 +121,15 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
         rl.cells);
   visit(KnobInfo{"site_placement", "", "where Voronoi sites stand: through the UV map, or by area"},
         rl.site_placement);
-  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object; 0: total_sites", 0,
-                 100000},
+  visit(KnobInfo{"sites_per_object", "sites", "Voronoi sites on each object; 0: total_sites", 0, 100000},
         rl.sites_per_object);
-  visit(KnobInfo{"total_sites", "sites",
-                 "Voronoi sites of the whole scene, shared among its objects by area (at least one each), where "
-                 "sites_per_object is 0",
-                 1, 1e7},
-        rl.total_sites);
+  visit(
+      KnobInfo{
+          "total_sites", "sites",
+          "Voronoi sites of the whole scene, shared among its objects by area (at least one each), where "
+          "sites_per_object is 0",
+          1, 1e7},
+      rl.total_sites);
   visit(
       KnobInfo{
           "site_search", "",
@@ -163,10 +165,11 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  "mean beside the block's; 0: a bin's value is its own",
                  0, 1e6},
         rl.shrinkage);
-  visit(KnobInfo{"mixture", "",
-                 "share of directions drawn from the BSDF: bsdf_fraction everywhere, or learned in every cell, "
-                 "starting from that"},
-        rl.mixture);
+  visit(
+      KnobInfo{"mixture", "",
+               "share of directions drawn from the BSDF: bsdf_fraction everywhere, or learned in every cell, "
+               "starting from that"},
+      rl.mixture);
   visit(KnobInfo{"bsdf_fraction", "probability",
                  "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
         rl.bsdf_fraction);
@@ -174,31 +177,41 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",
                  0.001, 1},
         rl.bin_floor);
-  visit(KnobInfo{"teach_frames", "frames",
-                 "so many frames teach the table all that they find, of later ones only the share teach_frames / "
-                 "frame; 0: all frames",
-                 0, 1e6},
-        rl.teach_frames);
-  visit(KnobInfo{"update_growth", "",
-                 "the table is updated when the frames since its last update are this share of those before it (at "
-                 "most 32 frames); 0: after every frame",
-                 0, 1},
-        rl.update_growth);
+  visit(
+      KnobInfo{
+          "teach_frames", "frames",
+          "so many frames teach the table all that they find, of later ones only the share teach_frames / "
+          "frame; 0: all frames",
+          0, 1e6},
+      rl.teach_frames);
+  visit(
+      KnobInfo{
+          "update_growth", "",
+          "the table is updated when the frames since its last update are this share of those before it (at "
+          "most 32 frames); 0: after every frame",
+          0, 1},
+      rl.update_growth);
   visit(KnobInfo{"guided_bounces", "scattering events",
-                 "so many first events of a path draw their directions with the table and teach it; the others sample "
+                 "so many first events of a path draw their directions with the table and teach it; the "
+                 "others sample "
                  "the BSDF",
                  1, 1024},
         rl.guided_bounces);
-  visit(KnobInfo{"roulette", "",
-                 "what Russian roulette goes by: the path's throughput; what that would be had the BSDF drawn the "
-                 "same directions (the first ends paths where the table sent many, since each then counts for less); "
-                 "or what the table expects of the rest of the path, over what it expected at its start"},
-        rl.roulette);
-  visit(KnobInfo{"roulette_scale", "",
-                 "of roulette value: a path goes on with this times what it is expected to bring, over what it was "
-                 "expected to at its start; larger: longer paths, less noise",
-                 0.01, 100},
-        rl.roulette_scale);
+  visit(
+      KnobInfo{
+          "roulette", "",
+          "what Russian roulette goes by: the path's throughput; what that would be had the BSDF drawn the "
+          "same directions (the first ends paths where the table sent many, since each then counts for "
+          "less); "
+          "or what the table expects of the rest of the path, over what it expected at its start"},
+      rl.roulette);
+  visit(
+      KnobInfo{
+          "roulette_scale", "",
+          "of roulette value: a path goes on with this times what it is expected to bring, over what it was "
+          "expected to at its start; larger: longer paths, less noise",
+          0.01, 100},
+      rl.roulette_scale);
 }
 
 }  // namespace qtrace

@@ -9,8 +9,8 @@
 namespace qtrace::gpu {
 namespace {
 
-// The walk's stack (traverse_ordered.glsl): its end, a link for each inner node above a leaf, and one place that is
-// written before it is known to be needed.
+// The walk's stack (traverse_ordered.glsl): its end, a link for each inner node above a leaf, and one place
+// that is written before it is known to be needed.
 static_assert(BVH_DEPTH >= kMaxBvhDepth + 2);
 
 constexpr double kSteps = 65535;

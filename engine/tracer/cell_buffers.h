@@ -41,7 +41,8 @@ class CellBuffers {
   // axis that normals there are nearest to.
   const std::vector<CellState>& states() const { return states_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // Whether the lists of sites find every cell, so that shaders need no other search (define LISTS_ARE_COMPLETE).
+  // Whether the lists of sites find every cell, so that shaders need no other search (define
+  // LISTS_ARE_COMPLETE).
   bool lists_are_complete() const { return lists_are_complete_; }
   const GridFrame& grid() const { return grid_; }  // without boxes unless cells are of a grid
   std::size_t bytes() const { return cells_.bytes() + lists_.bytes(); }

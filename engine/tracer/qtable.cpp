@@ -96,7 +96,9 @@ void QTable::forget_touched() {
   touched_.write(0, &head, sizeof(head));
 }
 
-std::vector<gpu::Buffer*> QTable::learned() { return {&values_, &visits_, &sums_, &starts_, &next_values_, &bsdf_shares_}; }
+std::vector<gpu::Buffer*> QTable::learned() {
+  return {&values_, &visits_, &sums_, &starts_, &next_values_, &bsdf_shares_};
+}
 
 std::size_t QTable::bytes() const {
   return cells_.bytes() + values_.bytes() + visits_.bytes() + sums_.bytes() + starts_.bytes() +

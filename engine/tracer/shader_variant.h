@@ -3,8 +3,8 @@
 
 #include "engine/core/settings.h"
 #include "engine/gpu/scene_buffers.h"
-#include "engine/tracer/cell_buffers.h"
 #include "engine/gpu/shader_source.h"
+#include "engine/tracer/cell_buffers.h"
 
 namespace qtrace {
 

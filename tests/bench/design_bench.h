@@ -1,5 +1,5 @@
-// What other designs of the tracing pass would cost: a wavefront, rays sorted or not, and shaders that hold what a scene
-// does not use.
+// What other designs of the tracing pass would cost: a wavefront, rays sorted or not, and shaders that hold
+// what a scene does not use.
 #pragma once
 
 #include "tests/bench/frame_bench.h"

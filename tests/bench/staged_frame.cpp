@@ -6,8 +6,10 @@
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
 #include "engine/tracer/tiles.h"
+#include "engine/tracer/tracer.h"
 
 #include <string>
+#include <vector>
 
 namespace qtrace::bench {
 namespace {
@@ -33,7 +35,7 @@ DirectionSample sample_direction_twice(Event e, uvec4 bits) {
   e.cell.tangent += parameters.film.x;
   DirectionSample second = sample_direction(e, bits);
   return DirectionSample(max(first.direction, second.direction), max(first.pdf, second.pdf),
-                         max(first.entry, second.entry));
+                         max(first.bsdf, second.bsdf), max(first.entry, second.entry), max(first.share, second.share));
 }
 float direction_pdf_twice(Event e, vec3 wi) {
   float first = direction_pdf(e, wi);
@@ -47,6 +49,7 @@ constexpr std::string_view kNoTargets = R"(
 #include "cells.glsl"
 #include "columns.glsl"
 #define gather_target(entry, target) false
+#define gather_light_target(entry, target) false
 )";
 
 // In the order of TraceForm.
@@ -113,6 +116,26 @@ RadianceImage StagedFrame::image_of(TraceForm form, std::uint32_t frames) {
     learn();
   }
   return film_.radiance(frames);
+}
+
+void check_same_image(const gpu::Context& context, const Scene& scene, const RenderSettings& settings,
+                      StagedFrame& staged) {
+  constexpr int kFrames = 3;
+  Tracer tracer(context, scene, settings);
+  std::vector<RadianceImage> wanted;
+  for (int i = 0; i < kFrames; ++i) {
+    tracer.render_frame();
+    wanted.push_back(tracer.radiance());
+  }
+  for (std::size_t i = 0; i < kTraceForms.size(); ++i) {
+    const auto form = static_cast<TraceForm>(i);
+    const std::uint32_t frames = form == TraceForm::no_targets ? 1 : kFrames;
+    check(
+        staged.image_of(form, frames).mean == wanted[frames - 1].mean,
+        "the frame taken apart, form {}, does not render the tracer's image: the benchmark's passes are not "
+        "the tracer's",
+        kTraceForms[i]);
+  }
 }
 
 }  // namespace qtrace::bench

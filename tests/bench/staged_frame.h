@@ -50,4 +50,9 @@ class StagedFrame {
   std::uint32_t frame_ = 1;
 };
 
+// Throws Error unless the frame taken apart renders the tracer's image, to the bit, in every form; without
+// targets there is only one frame before the table would differ.
+void check_same_image(const gpu::Context& context, const Scene& scene, const RenderSettings& settings,
+                      StagedFrame& staged);
+
 }  // namespace qtrace::bench

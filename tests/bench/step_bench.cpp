@@ -44,28 +44,6 @@ const std::vector<experiments::Column<Row>>& columns() {
   return all;
 }
 
-// The tracer's image, to the bit, from the frame taken apart, in every form; without targets there is only
-// one frame before the table would differ.
-void check_same_image(const gpu::Context& context, const Scene& scene, const RenderSettings& settings,
-                      StagedFrame& staged) {
-  constexpr int kFrames = 3;
-  Tracer tracer(context, scene, settings);
-  std::vector<RadianceImage> wanted;
-  for (int i = 0; i < kFrames; ++i) {
-    tracer.render_frame();
-    wanted.push_back(tracer.radiance());
-  }
-  for (std::size_t i = 0; i < kTraceForms.size(); ++i) {
-    const auto form = static_cast<TraceForm>(i);
-    const std::uint32_t frames = form == TraceForm::no_targets ? 1 : kFrames;
-    check(
-        staged.image_of(form, frames).mean == wanted[frames - 1].mean,
-        "the frame taken apart, form {}, does not render the tracer's image: the benchmark's passes are not "
-        "the tracer's",
-        kTraceForms[i]);
-  }
-}
-
 enum Stage : std::size_t { whole, trace, cell_twice, direction_twice, no_targets, accumulate, learn };
 
 std::vector<Contender> contenders_of(const gpu::Context& context, StagedFrame& frame) {

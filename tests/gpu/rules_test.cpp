@@ -71,8 +71,8 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
-// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at its end,
-// and so on: Le / (1 - albedo) - Le.
+// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at
+// its end, and so on: Le / (1 - albedo) - Le.
 TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
   RenderSettings settings = closed_settings(GetParam());

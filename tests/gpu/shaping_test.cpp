@@ -1,5 +1,5 @@
-// What becomes of learned values before directions are drawn: shrinkage, the product with the cosine, the mixture with the
-// BSDF. Against values worked out by hand.
+// What becomes of learned values before directions are drawn: shrinkage, the product with the cosine, the
+// mixture with the BSDF. Against values worked out by hand.
 #include "tests/support/learning_stage.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +21,10 @@ class Shaping : public LearningStage {
   // Of the first cell.
   std::vector<double> probabilities() const {
     std::vector<double> result;
-    for (const glm::vec4& v : probe<glm::vec4>(
-             "vec4", {"variants.glsl", "qtable.glsl"}, "",
-             "result = vec4(column_probability(first_bin(0u), uint(BINS), index));",
-             static_cast<std::uint32_t>(bins_), defines_)) {
+    for (const glm::vec4& v :
+         probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+                          "result = vec4(column_probability(first_bin(0u), uint(BINS), index));",
+                          static_cast<std::uint32_t>(bins_), defines_)) {
       result.push_back(v.x);
     }
     return result;
@@ -81,7 +81,8 @@ TEST_F(Shaping, ShrinksTowardsBlockAndCell) {
   EXPECT_FLOAT_EQ(table_->values()[1], 0);
 }
 
-// 8 x 8 bins have blocks of 2 x 2: bin (0, 1) is pulled by its neighbour (0, 0), and (0, 2) by the cell alone.
+// 8 x 8 bins have blocks of 2 x 2: bin (0, 1) is pulled by its neighbour (0, 0), and (0, 2) by the cell
+// alone.
 TEST_F(Shaping, ABlockIsAQuarterOfTheSquareWide) {
   settings_.rl.shrinkage = 2;
   build_bins(8, 8);
@@ -94,8 +95,9 @@ TEST_F(Shaping, ABlockIsAQuarterOfTheSquareWide) {
   EXPECT_GT(drawn[1], 1.5 * drawn[2]);
 }
 
-// 300 squares of 0.04 by the BSDF and 100 of 0.36 by the table: 12 against 36, so 1/4 by the BSDF, which is below the
-// least share of 0.3. The other way round 3/4, above its complement. Ten of one size each stay near bsdf_fraction.
+// 300 squares of 0.04 by the BSDF and 100 of 0.36 by the table: 12 against 36, so 1/4 by the BSDF, which is
+// below the least share of 0.3. The other way round 3/4, above its complement. Ten of one size each stay near
+// bsdf_fraction.
 TEST_F(Shaping, MixtureFollowsTheSquaresWithinItsBounds) {
   settings_.rl.mixture = Mixture::learned;
   settings_.rl.bsdf_fraction = 0.5;

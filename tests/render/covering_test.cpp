@@ -215,8 +215,8 @@ TEST(Covering, LearnedLightsOfUnguidedPathsEstimateTheSameImage) {
   }
 }
 
-// A wide light above a floor and one of a hundred times its power below: learned choices are far from those by power,
-// so that a weight with the wrong one of the two would count light twice or lose it.
+// A wide light above a floor and one of a hundred times its power below: learned choices are far from those
+// by power, so that a weight with the wrong one of the two would count light twice or lose it.
 TEST(Covering, LightsLearnedAgainstTheirPowerKeepTheMean) {
   LitFloor lit = lit_floor(0.8F, 2, 4, 1);
   lit.scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(200)));

@@ -2,8 +2,8 @@
 #include "engine/tracer/inspection.h"
 
 #include "engine/scene/analytic.h"
-#include "tests/support/report.h"
 #include "tests/support/render.h"
+#include "tests/support/report.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

@@ -1,4 +1,5 @@
-// The report's settings of the table, on which tests of single mechanisms build: nothing shrunk, mixed or learned besides.
+// The report's settings of the table, on which tests of single mechanisms build: nothing shrunk, mixed or
+// learned besides.
 #pragma once
 
 #include "engine/core/rl_settings.h"

@@ -18,8 +18,12 @@ class InspectProgram : public testing::Test {
   InspectProgram() { write_small_scene(folder_, "scene"); }
 
   void run(const std::string& name, const std::string& members) const {
-    folder_.write(name + ".json",
-                  small_config(name, members + R"("rl": {"bins_theta": 2, "bins_phi": 4, "sites_per_object": 100, "mixture": "fixed"}, )"));
+    folder_.write(
+        name + ".json",
+        small_config(
+            name,
+            members +
+                R"("rl": {"bins_theta": 2, "bins_phi": 4, "sites_per_object": 100, "mixture": "fixed"}, )"));
     const Outcome outcome = run_qtrace({"run", name + ".json", "--quiet"}, folder_.path());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   }

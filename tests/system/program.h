@@ -18,8 +18,8 @@ struct Outcome {
 // Runs QTRACE_BINARY with these arguments in the folder `working`, without a shell.
 Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesystem::path& working);
 
-// Starts the same and sends it a signal as soon as `ready` says so. Nothing where it had ended before, or was not
-// ready within a minute.
+// Starts the same and sends it a signal as soon as `ready` says so. Nothing where it had ended before, or was
+// not ready within a minute.
 std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::string>& arguments,
                                           const std::filesystem::path& working,
                                           const std::function<bool()>& ready);

@@ -66,7 +66,7 @@ TEST_F(SavedTables, HoldWhatWasLearned) {
   const experiments::SavedTable table = experiments::read_saved_table(run, std::nullopt);
   EXPECT_EQ(table.frame, 4);
   EXPECT_EQ(table.values.rows, 2U * 2 * 3);  // objects, sides, sites
-  EXPECT_EQ(table.values.columns, 8U + 2);  // directions, and both sides of the mixture
+  EXPECT_EQ(table.values.columns, 8U + 2);   // directions, and both sides of the mixture
   EXPECT_EQ(experiments::read_saved_table(run, 2).frame, 2);
   // A visited entry may have learned of darkness; an unvisited one has learned nothing.
   std::size_t learned = 0;
