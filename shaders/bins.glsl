@@ -18,6 +18,11 @@ vec3 from_square(vec2 p) {
   return vec3(sine * cos(phi), sine * sin(phi), p.x);
 }
 
+// Of a direction in proportion to its cosine.
+vec2 cosine_square(vec2 u) {
+  return vec2(sqrt(1.0 - u.x), u.y);
+}
+
 // Mean cosine over a bin: cos(theta) is uniform over its row.
 float bin_cosine(uint bin) {
   return (float(bin / uint(BINS_PHI)) + 0.5) / float(BINS_THETA);
@@ -47,6 +52,12 @@ vec3 from_square(vec2 p) {
   return vec3(signed_unit * (r * sqrt(max(0.0, 2.0 - r * r))), 1.0 - r * r);
 }
 
+// Of a direction in proportion to its cosine.
+vec2 cosine_square(vec2 u) {
+  float phi = 2.0 * PI * u.y;
+  return to_square(vec3(sqrt(u.x) * vec2(cos(phi), sin(phi)), sqrt(1.0 - u.x)));
+}
+
 // Integral of max(|x|, |y|)^2 = r^2 over the rectangle from 0 to `corner`.
 float radius2_integral(vec2 corner) {
   vec2 a = abs(corner);
@@ -68,15 +79,23 @@ float bin_cosine(uint bin) {
 
 #endif
 
-uint bin_of(vec3 local) {
-  vec2 p = to_square(local);
+uint bin_at(vec2 p) {
   uint j = uint(clamp(int(p.x * float(BINS_THETA)), 0, BINS_THETA - 1));
   uint k = uint(clamp(int(p.y * float(BINS_PHI)), 0, BINS_PHI - 1));
   return j * uint(BINS_PHI) + k;
 }
 
-// The direction at fraction u of the bin's part of the square: uniform for uniform u.
-vec3 direction_in_bin(uint bin, vec2 u) {
+uint bin_of(vec3 local) {
+  return bin_at(to_square(local));
+}
+
+// At fraction u of the bin's part of the square.
+vec2 square_in_bin(uint bin, vec2 u) {
   vec2 corner = vec2(bin / uint(BINS_PHI), bin % uint(BINS_PHI));
-  return from_square((corner + u) / vec2(BINS_THETA, BINS_PHI));
+  return (corner + u) / vec2(BINS_THETA, BINS_PHI);
+}
+
+// Uniform in the bin for uniform u.
+vec3 direction_in_bin(uint bin, vec2 u) {
+  return from_square(square_in_bin(bin, u));
 }

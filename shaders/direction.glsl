@@ -58,35 +58,44 @@ float direction_pdf(Event e, vec3 wi) {
   return mixture_pdf(e, bsdf, table_pdf(uint(e.cell.index), bin_of(local)));
 }
 
-DirectionSample sample_direction(Event e, uvec4 bits) {
-  vec2 u = vec2(to_unit(bits.y), to_unit(bits.z));
-  DirectionSample result;
-  if (!e.is_guided) {
-    result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
-    result.bsdf = result.pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction);
-    result.entry = result.share = NO_ENTRY;
-    return result;
+struct Drawn {
+  vec3 direction;
+  uint bin;
+};
+
+// By the table from the bin `chosen`, or by the BSDF. llvmpipe computes both sides of a branch: as much as can be is
+// therefore done once for both.
+Drawn draw(Event e, bool by_table, uint chosen, vec2 u, float u_lobe) {
+#ifdef HAS_SPECULAR
+  Drawn drawn = Drawn(to_world(direction_in_bin(chosen, u), e.cell.tangent, e.surface.normal), chosen);
+  if (!by_table) {
+    drawn.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, u_lobe);
+    drawn.bin = bin_of(to_cell(e.cell, e.surface.normal, drawn.direction));
   }
-  uint cell = uint(e.cell.index);
-  Choice choice = choose_bin(cell, bits.w);
-  uint bin = choice.column;
-  float table = bin_pdf(choice.probability);
-  bool by_table = to_unit(bits.x) >= e.bsdf_share;
-  if (by_table) {
-    result.direction = to_world(direction_in_bin(bin, u), e.cell.tangent, e.surface.normal);
-  } else {
-    result.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, to_unit(bits.w));
-#ifdef MIXES_BSDF
-    bin = bin_of(to_cell(e.cell, e.surface.normal, result.direction));
-    table = table_pdf(cell, bin);
+  return drawn;
+#else
+  vec2 square = by_table ? square_in_bin(chosen, u) : cosine_square(u);
+  return Drawn(to_world(from_square(square), e.cell.tangent, e.surface.normal), by_table ? chosen : bin_at(square));
 #endif
-  }
-  result.bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, result.direction);
+}
+
+DirectionSample sample_direction(Event e, uvec4 bits) {
+  uint cell = e.is_guided ? uint(e.cell.index) : 0u;
+  Choice choice = choose_bin(cell, bits.w);
+  bool by_table = e.is_guided && to_unit(bits.x) >= e.bsdf_share;
+  Drawn drawn = draw(e, by_table, choice.column, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
+  float table = bin_pdf(choice.probability);
+#ifdef MIXES_BSDF
+  if (!by_table) table = table_pdf(cell, drawn.bin);
+#endif
+  DirectionSample result;
+  result.direction = drawn.direction;
+  result.bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, drawn.direction);
   result.pdf = mixture_pdf(e, result.bsdf, table);
-  result.entry = first_bin(cell) + bin;
+  result.entry = e.is_guided ? first_bin(cell) + drawn.bin : NO_ENTRY;
   result.share = NO_ENTRY;
 #ifdef LEARNS_MIXTURE
-  result.share = first_share(cell) + (by_table ? SHARE_TABLE : SHARE_BSDF);
+  if (e.is_guided) result.share = first_share(cell) + (by_table ? SHARE_TABLE : SHARE_BSDF);
 #endif
   return result;
 }

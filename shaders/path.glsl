@@ -91,7 +91,7 @@ bool needs_cell(uint bounce) {
 // The event's cell, and where the path goes from there.
 Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key) {
 #ifdef HAS_TABLE
-  e.cell = Cell(NO_CELL, vec3(0.0));
+  e.cell = no_cell(e.surface);
   if (needs_cell(bounce)) {
     e.cell = find_cell(e.surface);
     ++path.tally.lookups;
