@@ -35,12 +35,12 @@ bool is_leaf(uint link) {
   return link >= LEAF_LINK;
 }
 
-// The stack of links yet to follow: the six on top in registers, EMPTY where there are fewer, and the older ones in
+// The stack of links yet to follow: the eight on top in registers, EMPTY where there are fewer, and the older ones in
 // memory. Nodes are walked with those in registers alone. llvmpipe reads and writes memory lane by lane: a stack in
 // memory alone takes a quarter of a frame's time.
 struct Stack {
-  uvec3 top;
-  uvec3 rest;
+  uvec4 top;
+  uvec4 rest;
   uint stored;  // in memory
 };
 
@@ -48,19 +48,19 @@ struct Stack {
 const uint EMPTY = LEAF_LINK;
 
 Stack stack_of(uint link) {
-  return Stack(uvec3(link, EMPTY, EMPTY), uvec3(EMPTY), 0u);
+  return Stack(uvec4(link, uvec3(EMPTY)), uvec4(EMPTY), 0u);
 }
 
 bool is_full(Stack stack) {
-  return stack.rest.z != EMPTY;
+  return stack.rest.w != EMPTY;
 }
 
 // Of a stack that is not full.
 void push_or_pop(inout Stack stack, bool push, uint link, bool pop) {
-  uvec3 top = stack.top;
-  uvec3 rest = stack.rest;
-  stack.top = push ? uvec3(link, top.xy) : pop ? uvec3(top.yz, rest.x) : top;
-  stack.rest = push ? uvec3(top.z, rest.xy) : pop ? uvec3(rest.yz, EMPTY) : rest;
+  uvec4 top = stack.top;
+  uvec4 rest = stack.rest;
+  stack.top = push ? uvec4(link, top.xyz) : pop ? uvec4(top.yzw, rest.x) : top;
+  stack.rest = push ? uvec4(top.w, rest.xyz) : pop ? uvec4(rest.yzw, EMPTY) : rest;
 }
 
 // On llvmpipe in shared memory, which is cheaper there than a private array; elsewhere it would cost occupancy.
@@ -116,10 +116,10 @@ void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
     bool done = link == END_OF_WALK || (any_hit && hit.triangle != NO_TRIANGLE);
     if (!done) {
       if (is_full(stack)) {
-        STORED(stack.stored) = stack.rest.z;
-        STORED(stack.stored + 1u) = stack.rest.y;
+        STORED(stack.stored) = stack.rest.w;
+        STORED(stack.stored + 1u) = stack.rest.z;
         stack.stored += 2u;
-        stack.rest.yz = uvec2(EMPTY);
+        stack.rest.zw = uvec2(EMPTY);
       }
       if (at_leaf) {
         link = stack.top.x;
