@@ -146,7 +146,20 @@ void Execution::save_checkpoint(const Tracer& tracer) {
   files_->write_manifest(manifest_);
 }
 
+void Execution::note_trial(const Tracer& tracer, Progress& progress) {
+  const std::optional<double> gain = tracer.trial_gain();
+  if (!gain) return;
+  manifest_["table_trial"] = {{"gain", *gain}, {"given_up", tracer.gave_table_up()}};  // infinity is null
+  if (!tracer.gave_table_up()) return;
+  warn(fmt::format("directions went without the table after its trial: frames without it had {:.3g} times "
+                   "the variance "
+                   "of those with it, which does not pay (rl.trial_frames)",
+                   *gain),
+       progress);
+}
+
 void Execution::finish(Tracer& tracer, const Reference& reference, Progress& progress) {
+  note_trial(tracer, progress);
   judge_image(tracer.radiance(), reference);
   note_non_finite(tracer, progress);
   const Outliers outliers = tracer.outliers();

@@ -47,6 +47,7 @@ class Execution {
   void finish(Tracer& tracer, const Reference& reference, Progress& progress);
   void judge_image(const RadianceImage& image, const Reference& reference);
   void note_non_finite(const Tracer& tracer, Progress& progress);
+  void note_trial(const Tracer& tracer, Progress& progress);
   void warn(const std::string& warning, Progress& progress);
 
   const RunJob& job_;

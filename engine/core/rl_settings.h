@@ -94,6 +94,7 @@ struct RlSettings {
   int teach_frames = 16;
   double update_growth = 0.1;
   int guided_bounces = 1024;
+  int trial_frames = 4;
   Roulette roulette = Roulette::value;
 
   bool operator==(const RlSettings&) const = default;
@@ -197,6 +198,15 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  "the BSDF",
                  1, 1024},
         rl.guided_bounces);
+  visit(
+      KnobInfo{
+          "trial_frames", "frames",
+          "so many of the first frames, from the 17th on every other, leave the table out; where they have "
+          "not "
+          "1.15 times the variance of those with it, all later ones do; 0: no trial; none where lights are "
+          "learned",
+          0, 1024},
+      rl.trial_frames);
   visit(
       KnobInfo{
           "roulette", "",

@@ -8,6 +8,7 @@
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
+#include "engine/tracer/table_trial.h"
 #include "engine/tracer/tiles.h"
 
 #include <algorithm>
@@ -17,6 +18,8 @@
 
 namespace qtrace {
 namespace {
+
+constexpr const char* kTrial = "trial of the table";  // in states
 
 gpu::Defines joined(gpu::Defines defines, const gpu::Defines& more) {
   defines.insert(more.begin(), more.end());
@@ -33,6 +36,7 @@ struct Tracer::State {
         settings(effective_settings(wanted, buffers.features())),
         film(wanted.width, wanted.height, context.programs()),
         schedule(settings.rl, frames_per_update(settings)),
+        trial(settings),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
@@ -41,6 +45,12 @@ struct Tracer::State {
       defines = with_cells(defines, table->cells());
     }
     trace = context.programs().get("trace.comp", joined(defines, more));
+    if (trial.is_wanted()) {
+      RenderSettings without = settings;
+      without.sampler = Sampler::bsdf;
+      trace_without =
+          context.programs().get("trace.comp", joined(shader_defines(without, buffers.features()), more));
+    }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
     parameter_block.write(0, &parameters, sizeof(parameters));
@@ -72,9 +82,12 @@ struct Tracer::State {
   void warm_up() {
     bind();
     if (table) table->reset();
-    trace->set_frame(0);
-    trace->set_teaches(true);
-    trace->dispatch(1);
+    for (gpu::Program* program : {trace.get(), trace_without.get()}) {
+      if (program == nullptr) continue;
+      program->set_frame(0);
+      program->set_teaches(true);
+      program->dispatch(1);
+    }
     film.accumulate(0);
     context.finish();
     film.check_loops();
@@ -88,8 +101,10 @@ struct Tracer::State {
   RenderSettings settings;  // as they take effect
   Film film;
   LearningSchedule schedule;
+  TableTrial trial;
   gpu::Buffer parameter_block;
   std::shared_ptr<gpu::Program> trace;
+  std::shared_ptr<gpu::Program> trace_without;  // null where no trial is wanted
   std::optional<QTable> table;
   std::vector<std::string> warnings;
   std::uint32_t frames = 0;
@@ -118,12 +133,14 @@ void Tracer::render_frame() {
   ++s.frames;
   s.bind();
   s.film.start_frame();
-  s.trace->set_frame(s.frames);
-  s.trace->set_teaches(s.learning && s.schedule.teaches(s.frames));
+  gpu::Program& trace = s.trial.is_without(s.frames) ? *s.trace_without : *s.trace;
+  trace.set_frame(s.frames);
+  trace.set_teaches(s.learning && s.schedule.teaches(s.frames));
   const auto [x, y] = s.groups();
-  s.trace->dispatch(x, y);
+  trace.dispatch(x, y);
   s.film.accumulate(s.frames);
-  if (s.table && s.learning && s.schedule.updates(s.frames)) s.table->learn();
+  if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
+  if (s.trial.looks_after(s.frames)) s.trial.look(s.film.halves(s.frames));
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
@@ -144,19 +161,22 @@ TracerState Tracer::state() const {
   for (const gpu::Buffer* buffer : state_->gathered()) {
     saved.buffers.push_back({buffer->name(), buffer->read_all<std::byte>()});
   }
+  if (state_->trial.is_wanted()) saved.buffers.push_back({kTrial, state_->trial.saved()});
   return saved;
 }
 
 void Tracer::restore(const TracerState& saved) {
   const std::vector<gpu::Buffer*> buffers = state_->gathered();
-  check(saved.buffers.size() == buffers.size(), "the state has {} buffers where this tracer has {}",
-        saved.buffers.size(), buffers.size());
+  const std::size_t count = buffers.size() + (state_->trial.is_wanted() ? 1 : 0);
+  check(saved.buffers.size() == count, "the state has {} buffers where this tracer has {}",
+        saved.buffers.size(), count);
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const SavedBuffer& from = saved.buffers[i];
     check(from.name == buffers[i]->name() && from.bytes.size() == buffers[i]->bytes(),
           "the state has {} bytes of {} where this tracer has {} of {}", from.bytes.size(), from.name,
           buffers[i]->bytes(), buffers[i]->name());
   }
+  if (state_->trial.is_wanted()) state_->trial.restore(saved.buffers.back().bytes);
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
   }
@@ -190,6 +210,10 @@ QTable* Tracer::table() {
   state_->bind();  // what is done with the table runs its update shader
   return state_->table ? &*state_->table : nullptr;
 }
+
+std::optional<double> Tracer::trial_gain() const { return state_->trial.gain(); }
+
+bool Tracer::gave_table_up() const { return state_->trial.gave_up(); }
 
 void Tracer::set_learning(bool learning) { state_->learning = learning; }
 

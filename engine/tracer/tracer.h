@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,7 +33,8 @@ class Tracer {
   // before the first frame; without them nothing does.
   void set_firefly_thresholds(std::span<const float> thresholds);
 
-  // Enqueues one sample per pixel and, where there is a table, one update of it. Does not wait.
+  // Enqueues one sample per pixel and, where there is a table, one update of it. Does not wait, but
+  // at both ends of a trial of the table.
   void render_frame();
   std::uint32_t frames() const;
 
@@ -54,6 +56,11 @@ class Tracer {
       const;                         // what of scene and settings is rendered otherwise, and how
   QTable* table();                   // null unless directions or lights are learned; for studies of the table
   void set_learning(bool learning);  // false: the table stays as it is
+
+  // What the trial of the table found (table_trial.h): variance without it over that with it. Nothing where
+  // there was no trial, or none yet.
+  std::optional<double> trial_gain() const;
+  bool gave_table_up() const;  // frames after the trial leave it out
 
   std::uint64_t cells() const;         // rows of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers

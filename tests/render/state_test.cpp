@@ -41,6 +41,28 @@ TEST(State, HoldsWhatTheTableHasNotYetLearned) {
   EXPECT_EQ(later.table()->values(), whole.table()->values());
 }
 
+// Before the trial of the table, within it and after it.
+TEST(State, GoesOnThroughATrialOfTheTable) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = small_settings(Sampler::rl, LightChoice::power);
+  settings.rl.trial_frames = 4;
+  Tracer whole(device(), scene, settings);
+  std::vector<Tracer> states;
+  for (const int frames : {14, 5, 9}) {
+    render(whole, frames);
+    Tracer later(device(), scene, settings);
+    later.restore(whole.state());
+    states.push_back(std::move(later));
+  }
+  render(whole, 4);
+  ASSERT_TRUE(whole.trial_gain());
+  for (Tracer& later : states) {
+    render(later, static_cast<int>(whole.frames() - later.frames()));
+    expect_equal(later.radiance(), whole.radiance());
+    EXPECT_EQ(later.trial_gain(), whole.trial_gain());
+  }
+}
+
 class States : public testing::TestWithParam<std::pair<Sampler, LightChoice>> {
  protected:
   RenderSettings settings() const { return small_settings(GetParam().first, GetParam().second); }

@@ -19,6 +19,7 @@ inline RlSettings report_table() {
   rl.roulette = Roulette::throughput;
   rl.teach_frames = 0;
   rl.update_growth = 0;
+  rl.trial_frames = 0;
   return rl;
 }
 
