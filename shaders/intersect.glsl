@@ -1,6 +1,16 @@
 // One ray and one triangle.
 #include "scene.glsl"
 
+#ifdef COUNTED  // by ./dev bench: what a walk visits
+struct WalkSteps {
+  uint nodes;
+  uint triangles;
+} walk_steps = WalkSteps(0u, 0u);
+#define COUNT_STEP(member) ++walk_steps.member
+#else
+#define COUNT_STEP(member)
+#endif
+
 struct Hit {
   float t;        // in units of the direction; the given maximum where nothing was hit
   uint triangle;  // NO_TRIANGLE where nothing was hit
@@ -49,6 +59,7 @@ float edge_function(vec3 p, vec3 q) {
 
 // Either side is hit, edges and corners included, so that no ray passes between neighbours; t in (0, hit.t).
 void test_triangle(vec3 origin, Shear shear, uint triangle, inout Hit hit) {
+  COUNT_STEP(triangles);
   vec3 a = sheared(vertex_of(triangle, 0u), origin, shear);
   vec3 b = sheared(vertex_of(triangle, 1u), origin, shear);
   vec3 c = sheared(vertex_of(triangle, 2u), origin, shear);

@@ -41,7 +41,7 @@ LightTriangle light_triangle(uint i) {
 }
 
 const float PI = 3.14159265358979;
-const float INFINITY = uintBitsToFloat(0x7f800000u);
+#define INFINITY uintBitsToFloat(0x7f800000u)
 
 // Set where a loop ended before its own condition: drivers may bound the iterations of a shader
 // (llvmpipe: 65,535, shared by all loops). Reported, never ignored.

@@ -13,7 +13,7 @@ struct Node {
 // over the scene (NodeGrid), in 16 bits.
 struct WideNode {
   uvec4 a;  // x, y, z: first child's box: lower corner | upper corner << 16, w: second child's along x
-  uvec4 b;  // x, y: second child's along y and z, z, w: links to the children (traverse_ordered.glsl)
+  uvec4 b;  // x, y: second child's along y and z, z, w: links to the children (wide_nodes.glsl)
 };
 
 // A uniform block.
@@ -226,6 +226,7 @@ const int UNIT_SAMPLES = 11;
 const int UNIT_OUTLIERS = 12;
 const int UNIT_SUMS = 13;
 const int UNIT_BSDF_SHARES = 14;
+const int FETCHED_UNITS = 15;
 
 const int LOCATION_FRAME = 0;    // uniform: number of the frame, from 1
 const int LOCATION_TEACHES = 1;  // uniform: whether the frame gathers targets for the table

@@ -7,7 +7,12 @@
 #if BVH == BVH_THREADED
 #include "traverse_threaded.glsl"
 #else
+#include "wide_nodes.glsl"
+#if FETCH == FETCH_IMAGE
+#include "traverse_registers.glsl"
+#else
 #include "traverse_ordered.glsl"
+#endif
 #endif
 
 // The nearest hit at t in (0, infinity); `direction` need not be unit.

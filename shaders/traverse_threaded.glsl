@@ -20,6 +20,7 @@ uint next_leaf(vec3 origin, vec3 inverse, float t_max, inout uint node) {
   bool searching = true;
   do {
     if (searching) {
+      COUNT_STEP(nodes);
       vec4 lo = uintBitsToFloat(fetch(nodes, 2u * node));
       vec4 hi = uintBitsToFloat(fetch(nodes, 2u * node + 1u));
       bool inside = meets_box(origin, inverse, lo.xyz, hi.xyz, t_max);

@@ -59,18 +59,26 @@ void check_buffer_size(const std::string& name, std::size_t bytes, BufferUse use
         static_cast<double>(bytes) / kBytesPerMib, static_cast<double>(most) / kBytesPerMib);
 }
 
-Buffer::Buffer(std::string name, std::size_t bytes, BufferUse use) : name_(std::move(name)), bytes_(bytes) {
+Buffer::Buffer(std::string name, std::size_t bytes, BufferUse use)
+    : Buffer(std::move(name), nullptr, bytes, use) {}
+
+Buffer::Buffer(std::string name, const void* data, std::size_t bytes, BufferUse use)
+    : name_(std::move(name)), bytes_(bytes) {
   check_buffer_size(name_, bytes, use);
   texels_ = use.texels;
   glCreateBuffers(1, &id_);
-  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr,
+  const bool is_given = data != nullptr && bytes >= kSmallest;
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), is_given ? data : nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
   if (glGetError() != GL_NO_ERROR) {
     glDeleteBuffers(1, &id_);
     fail("the device has no {:.1f} MiB left for the buffer of {}", static_cast<double>(bytes) / kBytesPerMib,
          name_);
   }
-  clear();
+  if (!is_given) {
+    clear();
+    if (data != nullptr && bytes > 0) write(0, data, bytes);
+  }
   if (use.texels == Texels::none) return;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, format_of(use.texels).format, id_);
@@ -85,6 +93,7 @@ Buffer::Buffer(Buffer&& other) noexcept
     : name_(std::move(other.name_)),
       bytes_(other.bytes_),
       id_(std::exchange(other.id_, 0)),
+      is_cleared_(other.is_cleared_),
       texels_(other.texels_),
       texture_(std::exchange(other.texture_, 0)) {}
 
@@ -92,6 +101,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(bytes_, other.bytes_);
   std::swap(id_, other.id_);
+  std::swap(is_cleared_, other.is_cleared_);
   std::swap(texels_, other.texels_);
   std::swap(texture_, other.texture_);
   return *this;
@@ -118,12 +128,13 @@ void Buffer::bind_dispatch() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, i
 
 void Buffer::clear() {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  is_cleared_ = true;
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void Buffer::clear(std::size_t offset, std::size_t bytes) {
+  is_cleared_ = true;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                             GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
@@ -131,6 +142,9 @@ void Buffer::clear(std::size_t offset, std::size_t bytes) {
 void Buffer::write(std::size_t offset, const void* data, std::size_t bytes) {
   check(offset + bytes <= bytes_, "write of {} bytes at {} outside of the buffer of {}", bytes, offset,
         name_);
+  // NVIDIA's driver (580.159) may write hundreds of kilobytes before it clears, where it was told the
+  // opposite.
+  if (std::exchange(is_cleared_, false)) glFinish();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }

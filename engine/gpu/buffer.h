@@ -32,9 +32,7 @@ class Buffer {
   Buffer(std::string name, std::size_t bytes, BufferUse use = {});
   template <class T>
   Buffer(std::string name, std::span<const T> data, BufferUse use = {})
-      : Buffer(std::move(name), data.size_bytes(), use) {
-    if (!data.empty()) write(0, data.data(), data.size_bytes());
-  }
+      : Buffer(std::move(name), data.data(), data.size_bytes(), use) {}
   template <class T>
   Buffer(std::string name, const std::vector<T>& data, BufferUse use = {})
       : Buffer(std::move(name), std::span<const T>(data), use) {}
@@ -62,9 +60,13 @@ class Buffer {
   }
 
  private:
+  // Of these bytes; zeroed where `data` is null or `bytes` 0.
+  Buffer(std::string name, const void* data, std::size_t bytes, BufferUse use);
+
   std::string name_;
   std::size_t bytes_ = 0;
   std::uint32_t id_ = 0;
+  bool is_cleared_ = false;  // since it was last written by the host
   Texels texels_ = Texels::none;
   std::uint32_t texture_ = 0;  // of the texels
 };

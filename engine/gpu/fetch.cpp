@@ -1,5 +1,7 @@
 #include "engine/gpu/fetch.h"
 
+#include "engine/gpu/structs.h"
+
 #include <epoxy/gl.h>
 
 namespace qtrace::gpu {
@@ -8,6 +10,13 @@ Fetch best_fetch() {
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const bool is_llvmpipe = renderer != nullptr && std::string(renderer).find("llvmpipe") != std::string::npos;
   return is_llvmpipe ? Fetch::image : Fetch::texture;
+}
+
+bool offers(Fetch fetch) {
+  if (fetch != Fetch::image) return true;
+  GLint units = 0;
+  glGetIntegerv(GL_MAX_IMAGE_UNITS, &units);
+  return units >= FETCHED_UNITS;
 }
 
 std::string fetch_name(Fetch fetch) {

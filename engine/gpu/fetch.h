@@ -13,6 +13,9 @@ enum class Fetch { texture, image, storage };
 // loads of images into gathers (./dev bench compares all three); GPUs have a cache for textures.
 Fetch best_fetch();
 
+// Whether the current context has as many units as shaders fetch from in this way (NVIDIA: 8 of images).
+bool offers(Fetch fetch);
+
 std::string fetch_name(Fetch fetch);
 
 }  // namespace qtrace::gpu

@@ -9,9 +9,8 @@
 namespace qtrace::gpu {
 namespace {
 
-// The walk's stack (traverse_ordered.glsl): its end, a link for each inner node above a leaf, and one place
-// that is written before it is known to be needed.
-static_assert(BVH_DEPTH >= kMaxBvhDepth + 2);
+// The walk's stack: its end, and a link for each inner node above a leaf.
+static_assert(BVH_DEPTH >= kMaxBvhDepth + 1);
 
 constexpr double kSteps = 65535;
 // An axis along which the scene is flatter than this part of its largest extent, or than this part of the way

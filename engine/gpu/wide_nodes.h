@@ -1,4 +1,4 @@
-// The hierarchy as shaders/traverse_ordered.glsl walks it.
+// The hierarchy as shaders/wide_nodes.glsl has it.
 #pragma once
 
 #include "engine/accel/bvh.h"

@@ -15,9 +15,11 @@ constexpr std::uint32_t kBefore = 16;
 // Keeps relative variances of dark pixels finite (the metrics' relMSE has the same); radiance squared.
 constexpr double kDark = 0.01;
 constexpr double kTrimmedShare = 0.001;
-// Of the radiance that frames with the table find, what those without it must find for their variance to count.
+// Of the radiance that frames with the table find, what those without it must find for their variance to
+// count.
 constexpr double kFoundShare = 0.9;
-// A pixel's own mean of so few samples would hide what is rare and bright behind itself: means are of square blocks.
+// A pixel's own mean of so few samples would hide what is rare and bright behind itself: means are of square
+// blocks.
 constexpr std::size_t kBlock = 8;  // pixels along a side
 
 std::vector<glm::dvec3> block_means(const std::array<RadianceImage, 2>& halves) {
@@ -31,7 +33,8 @@ std::vector<glm::dvec3> block_means(const std::array<RadianceImage, 2>& halves) 
     ++counts[block_of(i)];
   }
   std::vector<glm::dvec3> means;
-  for (std::size_t i = 0; i < halves[0].pixels(); ++i) means.push_back(sums[block_of(i)] / counts[block_of(i)]);
+  for (std::size_t i = 0; i < halves[0].pixels(); ++i)
+    means.push_back(sums[block_of(i)] / counts[block_of(i)]);
   return means;
 }
 

@@ -5,6 +5,7 @@
 #include "tests/bench/design_bench.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
+#include "tests/bench/limit_bench.h"
 #include "tests/bench/ray_bench.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/step_bench.h"
@@ -55,10 +56,11 @@ constexpr Effort kQuick{5, 256, 7, 128, 5, 96, 0.6};
 
 void add_options(CLI::App& app, Options& options) {
   constexpr int kMost = 1024;
+  constexpr int kMostSize = 2040;  // its rays are within 65,535 work groups
   constexpr int kTile = 8;
   app.add_flag("--quick", options.quick, "a minute instead of a quarter of an hour, with wider spreads");
   app.add_option("--only", options.only, "one part of it")
-      ->check(CLI::IsMember({"rays", "frames", "steps", "designs", "growth"}));
+      ->check(CLI::IsMember({"rays", "limits", "frames", "steps", "designs", "growth"}));
   app.add_option("--scenes", options.rays.scenes, "of the rays: glTF files, or room:TRIANGLES")
       ->delimiter(',')
       ->capture_default_str();
@@ -67,7 +69,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--rounds", options.rays.rounds, "interleaved rounds; figures are their medians")
       ->check(CLI::Range(1, kMost));
   app.add_option("--size", options.rays.size, "pixels along a side of all images")
-      ->check(CLI::Range(kTile, kMost));
+      ->check(CLI::Range(kTile, kMostSize));
   app.add_option("--threads", options.rays.threads, "of Embree; llvmpipe uses one per core")
       ->check(CLI::Range(1, kMost))
       ->default_val(std::max(1U, std::thread::hardware_concurrency()));
@@ -106,6 +108,7 @@ int run(int argc, char** argv) {
   std::filesystem::create_directories(out);
   write_manifest(out, context.device(), options.rays.threads);
   if (wants("rays")) bench_rays(context, options.rays);
+  if (wants("limits")) bench_limits(context, options.rays);
   if (wants("frames")) {
     bench_frames(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }

@@ -26,6 +26,9 @@ void main() {
   Hit hit = closest_hit(origin, direction);
   vec2 answer = vec2(hit.t, uintBitsToFloat(hit.triangle));
 #endif
+#ifdef COUNTED
+  answer = vec2(float(walk_steps.COUNTED), 0.0);
+#endif
   answers[index] = loop_was_cut ? vec2(-1.0, 0.0) : answer;
 }
 )";

@@ -18,8 +18,8 @@ struct Contender {
   std::vector<double> host_s = {};
 };
 
-// Two turns each to warm up, then `rounds`. Each round starts with another contender, so that none always
-// follows the same one.
+// Two measurements each to warm up, then `rounds`. Each round starts with another contender, so that none
+// always follows the same one. A turn is one measurement, or the mean of many short ones.
 void run_rounds(std::vector<Contender>& contenders, int rounds);
 
 // A contender's time in one round, as the CSV files of raw times have it.

@@ -56,6 +56,20 @@ class BenchTest(unittest.TestCase):
                 self.assertLess(int(row["disagreements"]), 3, row)
         self.assertEqual(len(rows_of(self.out / "ray_rounds.csv")), 3 * len(rows))
 
+    def test_rays_against_the_limits_of_the_device(self) -> None:
+        rows = rows_of(self.out / "limits.csv")
+        self.assertEqual(len(rows), 6)
+        for row in rows:
+            # Every walk meets the root; a leaf has four triangles at most.
+            self.assertGreaterEqual(float(row["nodes_per_ray"]), 1)
+            self.assertLess(float(row["nodes_per_ray"]), 200)
+            self.assertLess(float(row["triangles_per_ray"]), 4 * float(row["nodes_per_ray"]))
+            for share in ("arithmetic_share", "memory_share"):
+                self.assertTrue(0 < float(row[share]) < 1, row)
+            rate, operations = 1e6 * float(row["mrays_per_s"]), 1e9 * float(row["limit_goperations_per_s"])
+            self.assertAlmostEqual(float(row["arithmetic_share"]) / (rate / operations), 62 * float(row["nodes_per_ray"]) +
+                                   45 * float(row["triangles_per_ray"]), delta=0.5 * 62 * float(row["nodes_per_ray"]))
+
     def test_every_cell_of_the_table(self) -> None:
         rows = rows_of(self.out / "frames.csv")
         self.assertEqual(len(rows), 12)

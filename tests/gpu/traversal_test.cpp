@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::uint32_t kRays = 20000;
 
-void expect_same_hits(const Scene& scene, BvhKind kind, float more = 0) {
+void expect_same_hits(const Scene& scene, const Walk& walk, float more = 0) {
   device();
-  const Bvh bvh = build_bvh(scene, kind);
+  const Bvh bvh = build_bvh(scene, walk.kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<RayPair> rays = random_rays(bvh, kRays, 3, more);
@@ -34,7 +34,7 @@ void expect_same_hits(const Scene& scene, BvhKind kind, float more = 0) {
       "1.001);\n"
       "result = uvec4(hit.triangle, floatBitsToUint(hit.t), (occluded ? 1u : 0u) | (found ? 2u : 0u), "
       "loop_was_cut ? 1u : 0u);",
-      kRays, defines_of(kind));
+      kRays, walk.defines);
   int differences = 0;
   for (std::uint32_t i = 0; i < kRays; ++i) {
     const auto truth = closest_hit(scene, bvh, {glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)});
@@ -51,7 +51,7 @@ void expect_same_hits(const Scene& scene, BvhKind kind, float more = 0) {
   EXPECT_LE(differences, static_cast<int>(kRays / 5000));
 }
 
-class TraversalOf : public testing::TestWithParam<BvhKind> {};
+class TraversalOf : public testing::TestWithParam<Walk> {};
 
 TEST_P(TraversalOf, AgreesWithTheOracle) {
   expect_same_hits(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb"), GetParam());
@@ -70,8 +70,7 @@ TEST_P(TraversalOf, AgreesWithTheOracleOnFewTriangles) {
   expect_same_hits(scene, GetParam(), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, TraversalOf, testing::Values(BvhKind::sah, BvhKind::threaded),
-                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, TraversalOf, testing::ValuesIn(walks()), name_of);
 
 TEST(Traversal, OracleAgreesWithExhaustiveSearch) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
@@ -106,9 +105,10 @@ TEST_P(TraversalOf, LoopBudgetIsNeverExceededInSilence) {
   settings.width = settings.height = 8;
   settings.max_bounces = 1;
   settings.sampler = Sampler::bsdf;
-  settings.bvh = GetParam();
+  settings.bvh = GetParam().kind;
   try {
-    const Rendering r = render(scene, settings, 1);
+    Tracer tracer(device(), scene, settings, GetParam().defines);
+    const Rendering r = render(tracer, 1);
     for (const glm::dvec3& pixel : r.image.mean) EXPECT_DOUBLE_EQ(pixel.r, 1);
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("cut a shader loop"), std::string::npos) << error.what();

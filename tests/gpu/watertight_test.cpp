@@ -39,9 +39,9 @@ std::vector<Aim> aims_at_edges(const Scene& scene, glm::vec3 middle) {
 }
 
 // What `body` makes of every aim: the number of results that are not zero.
-std::size_t count_leaks(const Scene& scene, BvhKind kind, glm::vec3 middle, const std::string& body) {
+std::size_t count_leaks(const Scene& scene, const Walk& walk, glm::vec3 middle, const std::string& body) {
   device();
-  const Bvh bvh = build_bvh(scene, kind);
+  const Bvh bvh = build_bvh(scene, walk.kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const std::vector<Aim> aims = aims_at_edges(scene, middle);
@@ -55,13 +55,13 @@ std::size_t count_leaks(const Scene& scene, BvhKind kind, glm::vec3 middle, cons
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"
            "Hit hit = closest_hit(from, direction);\n" +
                body,
-           kRays, defines_of(kind))) {
+           kRays, walk.defines)) {
     leaks += r.x;
   }
   return leaks;
 }
 
-class Watertight : public testing::TestWithParam<BvhKind> {};
+class Watertight : public testing::TestWithParam<Walk> {};
 
 TEST_P(Watertight, NoRayPassesBetweenNeighbours) {
   for (const glm::vec3 middle : {glm::vec3(0), glm::vec3(3, -7, 20)}) {
@@ -97,8 +97,7 @@ TEST_P(Watertight, NoRayStartsBehindTheNextWall) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Watertight, testing::Values(BvhKind::sah, BvhKind::threaded),
-                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, Watertight, testing::ValuesIn(walks()), name_of);
 
 }  // namespace
 }  // namespace qtrace::test

@@ -42,7 +42,8 @@ TEST(TableTrial, KeepsTheTableBehindABlocker) {
   EXPECT_GT(tracer.last_frame_statistics().cell_lookups, 0U);
 }
 
-// Without light samples, chance finds the lamp behind the door so rarely that frames without the table look calm.
+// Without light samples, chance finds the lamp behind the door so rarely that frames without the table look
+// calm.
 TEST(TableTrial, KeepsTheTableWhereLightIsMissedWithoutIt) {
   const Tracer tracer = rendered("door_ajar.glb", settings_of(Nee::none), 25);
   EXPECT_FALSE(tracer.gave_table_up());

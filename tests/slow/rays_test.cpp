@@ -56,10 +56,10 @@ bool is_explained(const Scene& scene, const Bvh& bvh, const Ray& ray, const std:
   return std::abs(nearer.weight) < kBorder || std::abs(nearer.t) < rounding;
 }
 
-void compare_with_oracle(const std::string& name, BvhKind kind) {
+void compare_with_oracle(const std::string& name, const Walk& walk) {
   device();
   const Scene scene = load_gltf(std::string(QTRACE_SOURCE_DIR "/configs/scenes/") + name);
-  const Bvh bvh = build_bvh(scene, kind);
+  const Bvh bvh = build_bvh(scene, walk.kind);
   const gpu::SceneBuffers buffers(scene, bvh);
   buffers.bind();
   const glm::vec3 size = glm::max(glm::abs(bvh.nodes[0].lo), glm::abs(bvh.nodes[0].hi));
@@ -74,7 +74,7 @@ void compare_with_oracle(const std::string& name, BvhKind kind) {
         probe<glm::uvec4>("uvec4", {"traverse.glsl"}, kRayBuffer,
                           "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
                           "result = uvec4(hit.triangle, floatBitsToUint(hit.t), loop_was_cut ? 1u : 0u, 0u);",
-                          kBatch, defines_of(kind));
+                          kBatch, walk.defines);
     for (std::uint32_t i = 0; i < kBatch; ++i) {
       const Ray ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};
       const auto truth = closest_hit(scene, bvh, ray);
@@ -91,11 +91,11 @@ void compare_with_oracle(const std::string& name, BvhKind kind) {
                                    truth ? truth->t : 0);
     }
   }
-  fmt::print("{} {}: {} differences in {} rays, {} unexplained\n", name, enum_name(kind), differences,
+  fmt::print("{} {}: {} differences in {} rays, {} unexplained\n", name, walk.name, differences,
              std::uint64_t{kBatch} * kOracleBatches, unexplained);
 }
 
-class SlowRays : public testing::TestWithParam<BvhKind> {};
+class SlowRays : public testing::TestWithParam<Walk> {};
 
 TEST_P(SlowRays, TenMillionAgreeWithTheOracle) {
   for (const char* name : {"simple.glb", "cornell_box.glb", "many_lights.glb"})
@@ -103,9 +103,9 @@ TEST_P(SlowRays, TenMillionAgreeWithTheOracle) {
 }
 
 // From about the middle to points on edges, a quarter of them corners.
-std::uint64_t leaks_of(glm::vec3 middle, BvhKind kind) {
+std::uint64_t leaks_of(glm::vec3 middle, const Walk& walk) {
   const Scene scene = bumpy_ball(middle);
-  const gpu::SceneBuffers buffers(scene, build_bvh(scene, kind));
+  const gpu::SceneBuffers buffers(scene, build_bvh(scene, walk.kind));
   buffers.bind();
   const std::string body = fmt::format(
       "vec4 u = random_units(RandomKey(index, frame_number, 1u), 1u);\n"
@@ -125,7 +125,7 @@ std::uint64_t leaks_of(glm::vec3 middle, BvhKind kind) {
                     "layout(std430, binding = BINDING_OUTPUT) buffer Results { uint results[]; };\n"
                     "void main() { uint index = gl_GlobalInvocationID.x;\n" +
                         body + "}\n",
-                    gpu::with_fetch(defines_of(kind))));
+                    gpu::with_fetch(walk.defines)));
   gpu::Buffer output("leaks", 16);
   output.bind_storage(gpu::BINDING_OUTPUT);
   for (std::uint32_t batch = 1; batch <= kLeakBatches; ++batch) {
@@ -140,14 +140,12 @@ TEST_P(SlowRays, ABillionDoNotLeaveClosedSurfaces) {
   device();
   for (const glm::vec3 middle : {glm::vec3(0), glm::vec3(3, -7, 20)}) {
     const std::uint64_t leaks = leaks_of(middle, GetParam());
-    fmt::print("{}: {} leaks of {} rays\n", enum_name(GetParam()), leaks,
-               std::uint64_t{kBatch} * kLeakBatches);
+    fmt::print("{}: {} leaks of {} rays\n", GetParam().name, leaks, std::uint64_t{kBatch} * kLeakBatches);
     EXPECT_EQ(leaks, 0U);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, SlowRays, testing::Values(BvhKind::sah, BvhKind::threaded),
-                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, SlowRays, testing::ValuesIn(own_walks()), name_of);
 
 }  // namespace
 }  // namespace qtrace::test

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/accel/bvh.h"
+#include "engine/gpu/fetch.h"
 #include "engine/gpu/shader_source.h"
 
+#include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
@@ -41,7 +43,31 @@ inline std::vector<RayPair> random_rays(const Bvh& bvh, std::size_t count, std::
   return rays;
 }
 
-// Of the shaders that walk this kind of hierarchy.
-inline gpu::Defines defines_of(BvhKind kind) { return {{"BVH", std::to_string(static_cast<int>(kind))}}; }
+// A way to walk a hierarchy of this kind.
+struct Walk {
+  std::string name;
+  BvhKind kind;
+  gpu::Defines defines;
+};
+
+// The ones of this device.
+inline std::vector<Walk> own_walks() {
+  const auto number = [](BvhKind kind) { return std::to_string(static_cast<int>(kind)); };
+  return {{"sah", BvhKind::sah, {{"BVH", number(BvhKind::sah)}}},
+          {"threaded", BvhKind::threaded, {{"BVH", number(BvhKind::threaded)}}}};
+}
+
+// And GPUs', on whatever this device is.
+inline std::vector<Walk> walks() {
+  std::vector<Walk> all = own_walks();
+  all.push_back(all.front());
+  all.back().name = "sah_as_on_gpus";
+  all.back().defines["FETCH"] = std::to_string(static_cast<int>(gpu::Fetch::texture));
+  return all;
+}
+
+inline std::string name_of(const testing::TestParamInfo<Walk>& walk) { return walk.param.name; }
+
+inline void PrintTo(const Walk& walk, std::ostream* out) { *out << walk.name; }
 
 }  // namespace qtrace::test

@@ -60,7 +60,9 @@ TableTrial tried(Means means, Means deviations) {
   for (std::uint32_t frame = 1; frame <= 32; ++frame) {
     const bool without = trial.is_without(frame);
     Frames& half = frame % 2 == 1 ? odd : even;
-    half.add(without ? means.without : means.with, frame <= 16 ? 5 : without ? deviations.without : deviations.with);
+    half.add(without ? means.without : means.with, frame <= 16 ? 5
+                                                   : without   ? deviations.without
+                                                               : deviations.with);
     if (trial.looks_after(frame)) trial.look({odd.image(), even.image()});
   }
   return trial;
