@@ -12,6 +12,7 @@
 #include "engine/tracer/tiles.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -20,6 +21,9 @@ namespace qtrace {
 namespace {
 
 constexpr const char* kTrial = "trial of the table";  // in states
+// A GPU that waits lowers its clock, and the first milliseconds of work do not raise it again (seen on an
+// H200).
+constexpr std::chrono::milliseconds kClockRise{50};
 
 gpu::Defines joined(gpu::Defines defines, const gpu::Defines& more) {
   defines.insert(more.begin(), more.end());
@@ -78,7 +82,7 @@ struct Tracer::State {
     return all;
   }
 
-  // Drivers compile at the first dispatch: one work group of each shader, then everything as at the start.
+  // Drivers compile at the first dispatch: one work group of each shader. Everything is as at the start then.
   void warm_up() {
     bind();
     if (table) table->reset();
@@ -90,10 +94,20 @@ struct Tracer::State {
     }
     film.accumulate(0);
     context.finish();
+    if (!context.device().software) keep_busy();
     film.check_loops();
     film.reset();
     if (table) table->reset();
     context.finish();
+  }
+
+  void keep_busy() {
+    const auto [x, y] = groups();
+    const auto start = std::chrono::steady_clock::now();
+    do {
+      trace->dispatch(x, y);
+      context.finish();
+    } while (std::chrono::steady_clock::now() - start < kClockRise);
   }
 
   const gpu::Context& context;

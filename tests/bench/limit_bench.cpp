@@ -16,11 +16,11 @@ namespace qtrace::bench {
 namespace {
 
 // Of a node with two children and of a triangle, counted in wide_nodes.glsl and intersect.glsl: coordinates
-// unpacked, converted, multiplied and added; minima and maxima; the choice of the next link and the stack. Instructions
-// of one lane, each as dear as a multiply-add: less there cannot be, divergence comes on top.
+// unpacked, converted, multiplied and added; minima and maxima; the choice of the next link and the stack.
+// Instructions of one lane, each as dear as a multiply-add: less there cannot be, divergence comes on top.
 constexpr double kNodeOperations = 62;
 constexpr double kTriangleOperations = 45;
-constexpr double kNodeElements = 2;      // of 16 bytes
+constexpr double kNodeElements = 2;  // of 16 bytes
 constexpr double kTriangleElements = 3;
 constexpr double kRayBytes = sizeof(BenchRay) + sizeof(Answer);
 constexpr double kGiga = 1e9;
@@ -29,7 +29,7 @@ struct Row {
   std::string scene;
   std::string kind;
   std::size_t rays;
-  double nodes;      // of a ray
+  double nodes;  // of a ray
   double triangles;
   Spread mrays_per_s;
   Spread operations_limit;  // 10^9 a second
@@ -168,11 +168,13 @@ void bench_limits(const gpu::Context& context, const RayBenchOptions& options) {
   std::vector<RoundRow> rounds;
   for (const std::string& name : options.scenes) {
     const SceneLimits scene(context, options, name);
-    for (const RayKind kind : {RayKind::primary, RayKind::bounce, RayKind::shadow}) scene.run(kind, rows, rounds);
+    for (const RayKind kind : {RayKind::primary, RayKind::bounce, RayKind::shadow})
+      scene.run(kind, rows, rounds);
   }
   print(rows);
   experiments::write_file(options.out / "limits.csv", experiments::csv_text(columns(), rows));
-  experiments::write_file(options.out / "limit_rounds.csv", rounds_csv({"scene", "kind", "measured"}, rounds));
+  experiments::write_file(options.out / "limit_rounds.csv",
+                          rounds_csv({"scene", "kind", "measured"}, rounds));
 }
 
 }  // namespace qtrace::bench

@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t kGroup = 64;
 constexpr std::uint32_t kInvocations = 1U << 20;
 constexpr std::uint32_t kTurns = 64;
-constexpr std::uint32_t kChains = 16;       // of multiply-adds that do not wait for each other
-constexpr std::size_t kCachedNodes = 512;   // 16 KiB
-constexpr std::uint32_t kFetchedNodes = 32;  // by an invocation
+constexpr std::uint32_t kChains = 16;                    // of multiply-adds that do not wait for each other
+constexpr std::size_t kCachedNodes = 512;                // 16 KiB
+constexpr std::uint32_t kFetchedNodes = 32;              // by an invocation
 constexpr std::size_t kCopied = std::size_t{128} << 20;  // beyond caches; llvmpipe allows no more
 
 // Results depend on everything, so that nothing is left out.
@@ -91,7 +91,8 @@ double ArithmeticLimit::operations() { return double{kInvocations} * kTurns * kC
 FetchLimit::FetchLimit(std::size_t nodes)
     : output_("results", kInvocations * sizeof(std::uint32_t)),
       program_(program_of("bench_fetch.comp", kFetch,
-                          {{"TURNS", std::to_string(kFetchedNodes)}, {"NODES", std::to_string(std::min(nodes, kCachedNodes)) + "u"}})) {}
+                          {{"TURNS", std::to_string(kFetchedNodes)},
+                           {"NODES", std::to_string(std::min(nodes, kCachedNodes)) + "u"}})) {}
 
 void FetchLimit::run() const {
   output_.bind_storage(gpu::BINDING_OUTPUT);

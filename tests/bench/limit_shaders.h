@@ -20,8 +20,8 @@ class ArithmeticLimit {
   gpu::Program program_;
 };
 
-// Nodes of a hierarchy, two elements next to each other, at random places among the first, which stay in the nearest
-// cache. The scene must be bound.
+// Nodes of a hierarchy, two elements next to each other, at random places among the first, which stay in the
+// nearest cache. The scene must be bound.
 class FetchLimit {
  public:
   explicit FetchLimit(std::size_t nodes);  // that there are
