@@ -30,6 +30,12 @@ struct Bounds {
   }
 };
 
+// Half the surface.
+inline float half_area(const Bounds& b) {
+  const glm::vec3 size = b.hi - b.lo;
+  return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
 inline Bounds bounds_of(const Triangle& triangle) {
   Bounds bounds;
   for (const glm::vec3& p : triangle.position) bounds.add(p);

@@ -1,6 +1,7 @@
 #include "engine/accel/bounds.h"
 #include "engine/accel/bvh.h"
 #include "engine/accel/bvh_input.h"
+#include "engine/accel/reinsertion.h"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +26,6 @@ struct Item {
   Bounds box;
   std::uint32_t triangle = 0;
 };
-
-// Half the surface.
-float area(const Bounds& b) {
-  const glm::vec3 size = b.hi - b.lo;
-  return size.x * size.y + size.y * size.z + size.z * size.x;
-}
 
 struct Bin {
   Bounds box;
@@ -66,7 +61,8 @@ Split best_of_axis(const std::array<Bin, kBins>& bins, int axis) {
     const Bin& bin = bins[static_cast<std::size_t>(i)];
     sum.box.add(bin.box);
     sum.count += bin.count;
-    right[static_cast<std::size_t>(i)] = sum.count == 0 ? 0 : area(sum.box) * static_cast<float>(sum.count);
+    right[static_cast<std::size_t>(i)] =
+        sum.count == 0 ? 0 : half_area(sum.box) * static_cast<float>(sum.count);
   }
   Split best;
   sum = {};
@@ -74,7 +70,7 @@ Split best_of_axis(const std::array<Bin, kBins>& bins, int axis) {
     const Bin& bin = bins[static_cast<std::size_t>(i - 1)];
     sum.box.add(bin.box);
     sum.count += bin.count;
-    const float left = sum.count == 0 ? 0 : area(sum.box) * static_cast<float>(sum.count);
+    const float left = sum.count == 0 ? 0 : half_area(sum.box) * static_cast<float>(sum.count);
     const float cost = left + right[static_cast<std::size_t>(i)];
     if (cost < best.cost) best = {axis, i, cost};
   }
@@ -158,8 +154,8 @@ class Builder {
     const bool may_be_leaf = items.size() <= leaf_size_;
     const Split best = depth < kDepthOfHalves ? best_split(items, centres) : Split{};
     if (best.axis < 0) return may_be_leaf ? 0 : halve(items, centres);
-    const float as_leaf = kTriangleCost * area(box) * static_cast<float>(items.size());
-    if (may_be_leaf && as_leaf <= area(box) + kTriangleCost * best.cost) return 0;
+    const float as_leaf = kTriangleCost * half_area(box) * static_cast<float>(items.size());
+    if (may_be_leaf && as_leaf <= half_area(box) + kTriangleCost * best.cost) return 0;
     const BinMap map(centres, best.axis);
     const auto right = std::ranges::partition(items, [&](const Item& i) { return map.bin_of(i) < best.bin; });
     return items.size() - right.size();
@@ -185,7 +181,9 @@ class Builder {
 
 Bvh build_sah_bvh(const Scene& scene, std::uint32_t leaf_size) {
   check_buildable(scene, leaf_size);
-  return Builder(scene, leaf_size).build();
+  Bvh bvh = Builder(scene, leaf_size).build();
+  reinsert_subtrees(bvh);
+  return bvh;
 }
 
 }  // namespace qtrace
