@@ -35,12 +35,12 @@ void average(Image& image, const Image& other) {
 }  // namespace
 
 Comparison::Comparison(const std::string& scene, Size size)
-    : scene_(load(scene)), size_(size), samples_(size.samples) {
+    : scene_(load(scene)), sky_(scene == "open_sky.glb" ? 1 : 0), size_(size), samples_(size.samples) {
   Options options;
   options.width = options.height = size.size;
   options.samples = size.samples;
   options.max_bounces = kBounces;
-  options.sample_lights = scene != "furnace.glb";  // its walls are lights, and meet
+  options.environment = glm::dvec3(sky_);
   edges_ = edges_of_lights(scene_, options);
   truth_ = trace(scene_, options);
   while (truth_error() > size_.precision * std::sqrt(0.5) && 2 * samples_ <= size_.most_samples) {
@@ -70,6 +70,7 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
   settings.nee = nee;
   settings.seed = 77;
   settings.rl.sites_per_object = 40;
+  settings.environment = {sky_, sky_, sky_};
   Tracer tracer(test::device(), scene_, settings);
   Agreement result;
   std::uint64_t non_finite = 0;

@@ -13,9 +13,9 @@
 
 namespace qtrace::independent {
 
-// All shipped ones that have lights, and the Cornell box in metal and plastic.
-inline constexpr std::array kScenes{"simple.glb",  "occluded.glb",  "cornell_box.glb", "many_lights.glb",
-                                    "furnace.glb", "door_ajar.glb", "glossy_room.glb", "glossy"};
+// All shipped ones (open_sky with its sky), and the Cornell box in metal and plastic.
+inline constexpr std::array kScenes{"simple.glb",  "occluded.glb",  "cornell_box.glb", "many_lights.glb", "furnace.glb",
+                                    "door_ajar.glb", "glossy_room.glb", "open_sky.glb", "glossy"};
 
 // Chance that a true renderer fails one comparison.
 inline constexpr double kQuickChance = 1e-4;
@@ -43,6 +43,7 @@ class Comparison {
   double truth_error() const;  // of the mean, relative
 
   Scene scene_;
+  double sky_;  // radiance of its environment, in every channel
   Size size_;
   int samples_ = 0;
   Image truth_;

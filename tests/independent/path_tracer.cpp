@@ -57,17 +57,21 @@ class Tracer {
   glm::dvec3 sample(int x, int y, Random& random) const {
     Ray ray = camera_ray(x + random(), y + random());
     glm::dvec3 radiance(0), throughput(1);
+    double drawn_by = 0;  // density of the ray's direction
     for (int bounce = 0;; ++bounce) {
       const Hit hit = bvh_.closest(ray, epsilon_);
-      if (!hit) return radiance;
+      if (!hit) return radiance + throughput * options_.environment;
       const Point p = point(ray, hit);
-      if (bounce == 0 || !options_.sample_lights) radiance += throughput * emitted(*p.material, p.from_front);
+      const bool is_shared = bounce > 0 && options_.sample_lights && has_emission(p);
+      const double share = is_shared ? drawn_by / (drawn_by + light_density(ray.origin, hit.triangle, p)) : 1;
+      radiance += throughput * emitted(*p.material, p.from_front) * share;
       if (bounce == options_.max_bounces) return radiance;
       if (options_.sample_lights) radiance += throughput * direct(p, random);
       const glm::dvec3 direction = scattered(p, random);
       const double cosine = glm::dot(direction, p.normal);
       if (cosine <= 0 || glm::dot(direction, p.face) <= 0) return radiance;
-      throughput *= reflect(*p.material, p.normal, direction, p.eye) * (cosine / density(p, direction));
+      drawn_by = density(p, direction);
+      throughput *= reflect(*p.material, p.normal, direction, p.eye) * (cosine / drawn_by);
       if (throughput == glm::dvec3(0)) return radiance;
       ray = {p.position, direction};
     }
@@ -100,7 +104,7 @@ class Tracer {
 
   glm::dvec3 seen(const Ray& ray) const {
     const Hit hit = bvh_.closest(ray, epsilon_);
-    if (!hit) return glm::dvec3(0);
+    if (!hit) return options_.environment;
     const Point p = point(ray, hit);
     return emitted(*p.material, p.from_front);
   }
@@ -139,7 +143,23 @@ class Tracer {
     return {};
   }
 
-  // One light, and one point on it by area.
+  static bool has_emission(const Point& p) {
+    return emitted(*p.material, p.from_front) != glm::dvec3(0);
+  }
+
+  // Per solid angle as seen from there, of drawing this point of a light.
+  double light_density(const glm::dvec3& from, std::uint32_t triangle, const Point& p) const {
+    double sum = 0, own = 0;
+    for (const Light& light : lights_) {
+      const double w = weight(light, from);
+      sum += w;
+      if (light.triangle == triangle) own = w;
+    }
+    const glm::dvec3 way = p.position - from;
+    return own / sum / area_of(scene_.triangles[triangle]) * glm::dot(way, way) / glm::dot(p.face, p.eye);
+  }
+
+  // One light, and one point on it by area. By the balance heuristic: Veach & Guibas 1995.
   glm::dvec3 direct(const Point& p, Random& random) const {
     if (lights_.empty()) return glm::dvec3(0);
     const Choice choice = choose_light(p.position, random);
@@ -159,9 +179,9 @@ class Tracer {
     }
     const double relative = epsilon_ / std::sqrt(distance2);
     if (bvh_.closest({p.position, way}, relative, 1 - relative)) return glm::dvec3(0);
-    const double pdf = choice.chance / area_of(light);
+    const double by_light = choice.chance / area_of(light) * distance2 / std::abs(facing);
     return reflect(*p.material, p.normal, direction, p.eye) * radiance *
-           (glm::dot(direction, p.normal) * std::abs(facing) / distance2 / pdf);
+           (glm::dot(direction, p.normal) / (by_light + density(p, direction)));
   }
 
   // Half of all directions go by the cosine, half by the microfacets; all by the cosine where there are none.

@@ -19,8 +19,8 @@ struct Options {
   int max_bounces = 5;  // scattering events; no Russian roulette
   int samples = 64;     // per pixel
   std::uint64_t seed = 1;
-  // Light samples instead of the emission that paths run into. Of no use where lights touch what they light:
-  // the squared distance in the denominator then makes rare, huge contributions.
+  glm::dvec3 environment{0};  // radiance from outside of the scene, which paths run into
+  // Light samples beside the emission that paths run into, each weighted by its share of both densities.
   bool sample_lights = true;
 };
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-SCENES = ["simple", "occluded", "cornell_box", "many_lights", "furnace", "door_ajar", "glossy_room", "glossy"]
+SCENES = ["simple", "occluded", "cornell_box", "many_lights", "furnace", "door_ajar", "glossy_room", "open_sky", "glossy"]
 # What tests/slow/independent_test.cpp prints, and the commit.
 COLUMNS = ["scene", "sampler", "nee", "χ² per pixel", "χ² of blocks", "mean ratio", "frames", "samples", "verdict",
            "commit"]
 DEVICE = "Measured on "
 HEAD = """# Beside the independent tracer
 
-Every shipped scene with lights (and `glossy`, the Cornell box in metal and plastic), sampler and kind of next event estimation,
+Every shipped scene (and `glossy`, the Cornell box in metal and plastic), sampler and kind of next event estimation,
 compared with the path tracer of `tests/independent`, which shares no code with the renderer. χ² is that of the
 difference and its variance, 1 if both show the same: per pixel, and of the means of blocks of 4 × 4. The mean ratio is
 that of the two images. All with one standard error. `frames` are the renderer's samples per pixel, `samples` the
