@@ -42,9 +42,14 @@ float mixture_pdf(Event e, float bsdf, float table) {
   return e.is_guided ? mix(table, bsdf, e.bsdf_share) : bsdf;
 }
 
-float bsdf_share_of(Cell cell) {
+float bsdf_share_of(Event e) {
 #ifdef LEARNS_MIXTURE
-  return cell.index == NO_CELL ? 1.0 : fetch_one(bsdf_shares, cell.index);
+  float share = e.cell.index == NO_CELL ? 1.0 : fetch_one(bsdf_shares, e.cell.index);
+#ifdef HAS_SPECULAR
+  // A specular lobe depends on where it is seen from and is narrower than bins are: what the BSDF leaves to it stays its own.
+  if (!is_lambert(e.bsdf)) share = mix(share, 1.0, specular_share(e.bsdf, dot(e.surface.normal, e.wo)));
+#endif
+  return share;
 #else
   return parameters.rl.x;
 #endif

@@ -100,7 +100,7 @@ Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key
 #endif
 #if SAMPLER == SAMPLER_RL
   e.is_guided = e.cell.index != NO_CELL && float(bounce) < parameters.shaping.z;
-  e.bsdf_share = bsdf_share_of(e.cell);
+  e.bsdf_share = bsdf_share_of(e);
 #endif
   return depart(e, key, bounce);
 }

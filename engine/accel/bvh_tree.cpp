@@ -26,7 +26,8 @@ void link_misses(std::vector<BvhNode>& nodes, const std::vector<int>& depths) {
 
 }  // namespace
 
-BvhTree::BvhTree(const Bvh& bvh) : order_(bvh.order), nodes_(bvh.nodes.size()), is_moved_(bvh.nodes.size(), false) {
+BvhTree::BvhTree(const Bvh& bvh)
+    : order_(bvh.order), nodes_(bvh.nodes.size()), is_moved_(bvh.nodes.size(), false) {
   for (Index i = 0; i < nodes_.size(); ++i) {
     const BvhNode& from = bvh.nodes[i];
     Node& to = nodes_[i];

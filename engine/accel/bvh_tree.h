@@ -28,13 +28,14 @@ class BvhTree {
   // Branch and bound through the whole tree.
   SubtreeMove best_move(std::uint32_t node) const;
 
-  // Whether it is still possible after other moves; false too where it shares a node with one since forget_moves().
+  // Whether it is still possible after other moves; false too where it shares a node with one since
+  // forget_moves().
   bool can_apply(const SubtreeMove& move) const;
   void apply(const SubtreeMove& move);
   void forget_moves() { is_moved_.assign(nodes_.size(), false); }
 
-  // Nodes in preorder and triangles leaf by leaf, the child of the smaller box first. Leaves the Bvh alone and returns
-  // false where a leaf lies deeper than kMaxBvhDepth.
+  // Nodes in preorder and triangles leaf by leaf, the child of the smaller box first. Leaves the Bvh alone
+  // and returns false where a leaf lies deeper than kMaxBvhDepth.
   bool store(Bvh& bvh) const;
 
  private:

@@ -9,8 +9,8 @@
 namespace qtrace {
 namespace {
 
-// Measured on llvmpipe: more rounds or nodes gain nothing that shows, and a batch this large keeps 5 million triangles
-// within seconds.
+// Measured on llvmpipe: more rounds or nodes gain nothing that shows, and a batch this large keeps 5 million
+// triangles within seconds.
 constexpr int kRounds = 8;
 constexpr double kTried = 0.2;  // of all nodes in a round
 constexpr std::size_t kLeastTried = 1000;
@@ -38,7 +38,8 @@ std::vector<SubtreeMove> find_moves(const BvhTree& tree, const std::vector<std::
 
 void reinsert_subtrees(Bvh& bvh) {
   BvhTree tree(bvh);
-  const auto tried = std::clamp(static_cast<std::size_t>(kTried * static_cast<double>(tree.size())), kLeastTried, kMostTried);
+  const auto tried = std::clamp(static_cast<std::size_t>(kTried * static_cast<double>(tree.size())),
+                                kLeastTried, kMostTried);
   for (int round = 0; round < kRounds; ++round) {
     tree.forget_moves();
     const std::vector<SubtreeMove> moves = find_moves(tree, tree.largest(tried));

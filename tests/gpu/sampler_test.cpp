@@ -34,7 +34,7 @@ Event the_event() {
 #if SAMPLER == SAMPLER_RL
   e.cell = find_cell(e.surface);
   e.is_guided = e.cell.index != NO_CELL;
-  e.bsdf_share = bsdf_share_of(e.cell);
+  e.bsdf_share = bsdf_share_of(e);
 #endif
   return e;
 }

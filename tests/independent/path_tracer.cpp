@@ -143,9 +143,7 @@ class Tracer {
     return {};
   }
 
-  static bool has_emission(const Point& p) {
-    return emitted(*p.material, p.from_front) != glm::dvec3(0);
-  }
+  static bool has_emission(const Point& p) { return emitted(*p.material, p.from_front) != glm::dvec3(0); }
 
   // Per solid angle as seen from there, of drawing this point of a light.
   double light_density(const glm::dvec3& from, std::uint32_t triangle, const Point& p) const {

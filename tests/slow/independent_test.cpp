@@ -33,8 +33,13 @@ Work most_work(const std::string& scene) {
 }
 
 // Behind the door, chance finds the lamp in so few paths that after 3072 frames the mean is known to 1.6 %,
-// and pixels are far from normally distributed: nothing could be told apart.
-bool can_tell(const std::string& scene, Nee nee) { return scene != "door_ajar.glb" || nee != Nee::none; }
+// and pixels are far from normally distributed: nothing could be told apart. Neither could it where
+// directions go uniformly through narrow lobes: after 4096 frames the mean of glossy_room is known to 3 to 22
+// %.
+bool can_tell(const std::string& scene, Sampler sampler, Nee nee) {
+  if (scene == "door_ajar.glb") return nee != Nee::none;
+  return scene != "glossy_room.glb" || sampler != Sampler::uniform;
+}
 
 // What a table calls agreement: of the chi-square per pixel, which 16,384 pixels tell to 0.013. That of
 // blocks is told to 0.05 only, so it is judged by its error.
@@ -75,7 +80,7 @@ TEST_P(SlowIndependent, EveryMethodAgrees) {
   progress(fmt::format("{} samples per pixel of the independent tracer", comparison.samples()));
   for (const Sampler sampler : {Sampler::bsdf, Sampler::uniform, Sampler::rl}) {
     for (const Nee nee : {Nee::none, Nee::one_ray, Nee::two_ray}) {
-      if (!can_tell(GetParam(), nee)) continue;
+      if (!can_tell(GetParam(), sampler, nee)) continue;
       const auto watch = [&](const Agreement& so_far) {
         progress(fmt::format("{} + {}: {}", enum_name(sampler), enum_name(nee), so_far.text()));
       };

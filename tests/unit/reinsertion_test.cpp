@@ -1,5 +1,5 @@
-#include "engine/accel/bvh_tree.h"
 #include "engine/accel/reinsertion.h"
+#include "engine/accel/bvh_tree.h"
 #include "engine/accel/traverse.h"
 #include "engine/scene/gltf.h"
 
@@ -85,8 +85,8 @@ TEST_F(Reinserted, AgainItIsTheSame) {
   EXPECT_EQ(again.order, after_.order);
 }
 
-// Leaves at 0, 10, 1 and 11 along a line, in the pairs (0, 10) and (1, 11): one move makes it (0, 1) and (10, 11),
-// or as good a tree.
+// Leaves at 0, 10, 1 and 11 along a line, in the pairs (0, 10) and (1, 11): one move makes it (0, 1) and (10,
+// 11), or as good a tree.
 TEST(Reinsertion, MovesWhatIsMisplaced) {
   Bvh bvh;
   const auto leaf = [&](float x, std::uint32_t miss) {
@@ -106,8 +106,8 @@ TEST(Reinsertion, MovesWhatIsMisplaced) {
   leaf(11, kNoNode);
   const SubtreeMove move = BvhTree(bvh).best_move(2);
   EXPECT_EQ(move.beside, 5U);  // 0 beside 1
-  // Taken out of a box of 11, whose node goes; put into one of 2 within one that grows from 11 to 12 along the line:
-  // halves of surfaces are 2 x + x + 1... = 2 x + 1 for a length of x.
+  // Taken out of a box of 11, whose node goes; put into one of 2 within one that grows from 11 to 12 along
+  // the line: halves of surfaces are 2 x + x + 1... = 2 x + 1 for a length of x.
   EXPECT_FLOAT_EQ(move.gain, (2 * 11 + 1) - (2 * 2 + 1) - (2 * 12 - 2 * 11));
   reinsert_subtrees(bvh);
   EXPECT_LE(surface_of_all(bvh), (2 * 12 + 1) + 2 * (2 * 2 + 1) + 4 * 3 + 1e-6);
