@@ -175,7 +175,7 @@ void bench_designs(const gpu::Context& context, const FrameBenchOptions& options
   std::vector<RoundRow> rounds;
   for (const std::string name : {QTRACE_SOURCE_DIR "/configs/scenes/simple.glb", "room:200000"}) {
     const Scene scene = bench_scene(name);
-    const std::string scene_name = name.starts_with("room:") ? name : scene.name;
+    const std::string scene_name = shown_name(name, scene);
     Stages stages(context, scene, options.size);
     std::vector<Contender> contenders = stages.contenders();
     run_rounds(contenders, options.rounds);

@@ -83,12 +83,6 @@ double mean_steps(const RayBuffers& buffers, bool occlusion, const std::string& 
   return sum / static_cast<double>(counts.size());
 }
 
-Spread rate_of(double amount, const std::vector<double>& seconds) {
-  std::vector<double> rates;
-  for (const double s : seconds) rates.push_back(amount / s);
-  return spread_of(rates);
-}
-
 enum Measured : std::size_t { rays, arithmetic, fetches, memory };
 
 // One scene with its rays.
@@ -98,7 +92,7 @@ class SceneLimits {
       : context_(context),
         options_(options),
         scene_(bench_scene(name)),
-        name_(name.starts_with("room:") ? name : scene_.name),
+        name_(shown_name(name, scene_)),
         bvh_(build_bvh(scene_, BvhKind::sah)),
         buffers_(scene_, bvh_),
         sets_(make_rays(scene_, EmbreeScene(scene_, options.threads), options.size)),

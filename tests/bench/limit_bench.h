@@ -7,7 +7,7 @@
 namespace qtrace::bench {
 
 // What a walk costs, counted by the shader itself, in units of three limits that are measured beside it:
-// fused multiply-adds, fetches at random from a buffer as large as the scene's nodes, and a copy of memory.
+// fused multiply-adds, fetches of nodes from the nearest cache, and a copy of memory.
 // Prints a table and writes limits.csv and limit_rounds.csv.
 void bench_limits(const gpu::Context& context, const RayBenchOptions& options);
 

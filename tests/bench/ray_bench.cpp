@@ -52,11 +52,10 @@ class SceneBench {
   SceneBench(const gpu::Context& context, const RayBenchOptions& options, const std::string& name)
       : context_(context),
         options_(options),
-        name_(name),
         scene_(bench_scene(name)),
+        name_(shown_name(name, scene_)),
         embree_(scene_, options.threads),
         rays_(make_rays(scene_, embree_, options.size)) {
-    if (name.ends_with(".glb") || name.ends_with(".gltf")) name_ = scene_.name;
     fmt::print("{}: {} triangles; built by Embree in {:.3g} s", name_, scene_.triangles.size(),
                embree_.build_s());
     for (const Variant& variant : options.variants) build(bvh_of(variant));
@@ -129,8 +128,6 @@ class SceneBench {
 
   Row row_of(const std::string& kind, std::size_t rays, const Contender& c, const Contender& embree,
              double build_s, std::size_t disagreements) const {
-    std::vector<double> speeds;
-    for (const double seconds : c.wall_s) speeds.push_back(1e-6 * static_cast<double>(rays) / seconds);
     return {name_,
             scene_.triangles.size(),
             kind,
@@ -140,15 +137,15 @@ class SceneBench {
             c.wall_s.size(),
             build_s,
             disagreements,
-            spread_of(speeds),
+            1e-6 * rate_of(static_cast<double>(rays), c.wall_s),
             ratio_of(embree.wall_s, c.wall_s),
             ratio_of(embree.cpu_s, c.cpu_s)};
   }
 
   const gpu::Context& context_;
   const RayBenchOptions& options_;
-  std::string name_;
   Scene scene_;
+  std::string name_;
   EmbreeScene embree_;
   RaySets rays_;
   std::map<BvhKind, gpu::SceneBuffers> buffers_;

@@ -161,4 +161,8 @@ Scene bench_scene(const std::string& name) {
   return name.starts_with(kRoom) ? room(room_triangles(name)) : load_gltf(name);
 }
 
+std::string shown_name(const std::string& name, const Scene& scene) {
+  return name.starts_with(kRoom) ? name : scene.name;
+}
+
 }  // namespace qtrace::bench

@@ -16,5 +16,7 @@ Scene room(std::uint32_t triangles);
 // it.
 void check_scene(const std::string& name);
 Scene bench_scene(const std::string& name);
+// In tables: a file's scene by its own name.
+std::string shown_name(const std::string& name, const Scene& scene);
 
 }  // namespace qtrace::bench

@@ -26,6 +26,12 @@ std::string text_of(const Spread& spread) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", spread.median, spread.low, spread.high);
 }
 
+Spread rate_of(double amount, const std::vector<double>& seconds) {
+  std::vector<double> rates;
+  for (const double s : seconds) rates.push_back(amount / s);
+  return spread_of(rates);
+}
+
 Spread ratio_of(const std::vector<double>& numerators, const std::vector<double>& denominators) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < numerators.size(); ++i) ratios.push_back(numerators[i] / denominators[i]);

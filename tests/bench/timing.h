@@ -47,6 +47,9 @@ Spread spread_of(const std::vector<double>& values);
 Spread operator*(double scale, const Spread& spread);
 std::string text_of(const Spread& spread);  // "1.2 [1.1, 1.3]"
 
+// Of so much done in each of these times: per second.
+Spread rate_of(double amount, const std::vector<double>& seconds);
+
 // Of this over that, round by round, so that what disturbs a round disturbs both.
 Spread ratio_of(const std::vector<double>& numerators, const std::vector<double>& denominators);
 

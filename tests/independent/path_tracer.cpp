@@ -62,9 +62,10 @@ class Tracer {
       const Hit hit = bvh_.closest(ray, epsilon_);
       if (!hit) return radiance + throughput * options_.environment;
       const Point p = point(ray, hit);
-      const bool is_shared = bounce > 0 && options_.sample_lights && has_emission(p);
+      const glm::dvec3 emission = emitted(*p.material, p.from_front);
+      const bool is_shared = bounce > 0 && options_.sample_lights && emission != glm::dvec3(0);
       const double share = is_shared ? drawn_by / (drawn_by + light_density(ray.origin, hit.triangle, p)) : 1;
-      radiance += throughput * emitted(*p.material, p.from_front) * share;
+      radiance += throughput * emission * share;
       if (bounce == options_.max_bounces) return radiance;
       if (options_.sample_lights) radiance += throughput * direct(p, random);
       const glm::dvec3 direction = scattered(p, random);
@@ -142,8 +143,6 @@ class Tracer {
     }
     return {};
   }
-
-  static bool has_emission(const Point& p) { return emitted(*p.material, p.from_front) != glm::dvec3(0); }
 
   // Per solid angle as seen from there, of drawing this point of a light.
   double light_density(const glm::dvec3& from, std::uint32_t triangle, const Point& p) const {
