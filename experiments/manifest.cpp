@@ -17,8 +17,10 @@ Json program_json() {
 }
 
 Json device_json(const gpu::DeviceInfo& device) {
-  return {{"renderer", device.renderer}, {"vendor", device.vendor},     {"gl_version", device.gl_version},
-          {"platform", device.platform}, {"software", device.software}, {"buffer_fetch", device.fetch}};
+  return {{"renderer", device.renderer},        {"vendor", device.vendor},
+          {"gl_version", device.gl_version},    {"platform", device.platform},
+          {"software", device.software},        {"buffer_fetch", device.fetch},
+          {"work_threads", device.work_threads}};
 }
 
 Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {

@@ -1,3 +1,5 @@
+#include "work_groups.glsl"
+
 // The camera ray's unit direction through `position`, in pixels from the upper left corner of the image.
 vec3 camera_direction(vec2 position) {
   vec2 size = vec2(parameters.image.xy);
@@ -12,11 +14,7 @@ uvec2 pixel_of_invocation() {
   uint lane = gl_LocalInvocationID.x;
   uvec2 in_block = uvec2(lane & 3u, (lane >> 2u) & 1u);
   uvec2 block = uvec2((lane >> 3u) & 1u, lane >> 4u);
-  uvec2 group = gl_WorkGroupID.xy;
-#ifdef GROUP_STRIDE  // tests: the order of work groups must not matter; prime to their number
-  uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-  uint shuffled = (group.y * gl_NumWorkGroups.x + group.x) * uint(GROUP_STRIDE) % groups;
-  group = uvec2(shuffled % gl_NumWorkGroups.x, shuffled / gl_NumWorkGroups.x);
-#endif
-  return group * 8u + block * uvec2(4u, 2u) + in_block;
+  uint group = dealt_group();
+  uvec2 tile = uvec2(group % gl_NumWorkGroups.x, group / gl_NumWorkGroups.x);
+  return tile * 8u + block * uvec2(4u, 2u) + in_block;
 }

@@ -18,7 +18,8 @@ struct DeviceInfo {
   std::string platform;    // how EGL reached it: "device" or "surfaceless"
   bool software = false;   // computes on the CPU
   std::string fetch;       // how shaders fetch buffers that they only read: "texture", "image" or "storage"
-  std::string problem;     // why it cannot be used; empty where it can
+  unsigned work_threads = 1;  // among which the driver splits a dispatch by place (driver.h)
+  std::string problem;        // why it cannot be used; empty where it can
 };
 
 // Everything that EGL offers, usable or not.

@@ -1,6 +1,7 @@
 #include "engine/gpu/egl.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/fetch.h"
 
 #include <epoxy/gl.h>
@@ -113,6 +114,7 @@ void EglContext::describe(const Platform& platform) {
   info_.gl_version = gl_string(GL_VERSION);
   info_.software = platform.software_device || is_software_renderer(info_.renderer);
   info_.fetch = fetch_name(best_fetch());
+  info_.work_threads = work_threads();
 }
 
 EglContext::~EglContext() {

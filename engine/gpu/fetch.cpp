@@ -1,16 +1,13 @@
 #include "engine/gpu/fetch.h"
 
+#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
 
 namespace qtrace::gpu {
 
-Fetch best_fetch() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const bool is_llvmpipe = renderer != nullptr && std::string(renderer).find("llvmpipe") != std::string::npos;
-  return is_llvmpipe ? Fetch::image : Fetch::texture;
-}
+Fetch best_fetch() { return is_llvmpipe() ? Fetch::image : Fetch::texture; }
 
 bool offers(Fetch fetch) {
   if (fetch != Fetch::image) return true;

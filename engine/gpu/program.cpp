@@ -1,7 +1,7 @@
 #include "engine/gpu/program.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/fetch.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
@@ -46,13 +46,8 @@ GLuint compile(const ShaderSource& source) {
 
 }  // namespace
 
-Defines with_fetch(Defines defines) {
-  defines.try_emplace("FETCH", std::to_string(static_cast<int>(best_fetch())));
-  return defines;
-}
-
 Program::Program(const std::string& name, const Defines& defines)
-    : Program(assemble(name, shader_file(name), with_fetch(defines))) {}
+    : Program(assemble(name, shader_file(name), for_driver(defines))) {}
 
 Program::Program(const ShaderSource& source) {
   const GLuint shader = compile(source);

@@ -8,9 +8,6 @@
 
 namespace qtrace::gpu {
 
-// With the device's way to fetch buffers, unless the defines say FETCH themselves.
-Defines with_fetch(Defines defines);
-
 // A compute program. Throws Error with the driver's log, files and lines as in shaders/.
 class Program {
  public:

@@ -1,4 +1,5 @@
 #include "engine/gpu/program_cache.h"
+#include "engine/gpu/driver.h"
 
 #include <utility>
 
@@ -11,7 +12,7 @@ constexpr std::size_t kMostPrograms = 64;
 }  // namespace
 
 std::shared_ptr<Program> ProgramCache::get(const std::string& name, const Defines& defines) {
-  ShaderSource source = assemble(name, shader_file(name), with_fetch(defines));
+  ShaderSource source = assemble(name, shader_file(name), for_driver(defines));
   const auto found = programs_.find(source.text);
   if (found != programs_.end()) return found->second;
   auto program = std::make_shared<Program>(source);

@@ -1,5 +1,6 @@
 #include "tests/bench/design_bench.h"
 
+#include "engine/gpu/driver.h"
 #include "engine/gpu/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "experiments/atomic_file.h"
@@ -94,7 +95,7 @@ class Stages {
         sorted_(sorted_rays(sets_.bounce)),
         query_(false, {}),
         states_("path states", sets_.primary.size() * kStateBytes),
-        move_states_(gpu::assemble("bench_state.comp", kState, gpu::with_fetch({}))) {}
+        move_states_(gpu::assemble("bench_state.comp", kState, gpu::for_driver({}))) {}
 
   std::vector<Contender> contenders() {
     const auto tracing = [this](Tracer& tracer) {

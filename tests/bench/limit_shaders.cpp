@@ -1,5 +1,6 @@
 #include "tests/bench/limit_shaders.h"
 
+#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ void main() {
 )";
 
 gpu::Program program_of(const std::string& name, std::string_view text, gpu::Defines defines) {
-  return gpu::Program(gpu::assemble(name, text, gpu::with_fetch(std::move(defines))));
+  return gpu::Program(gpu::assemble(name, text, gpu::for_driver(std::move(defines))));
 }
 
 }  // namespace

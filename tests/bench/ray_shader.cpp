@@ -1,6 +1,7 @@
 #include "tests/bench/ray_shader.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 namespace qtrace::bench {
@@ -12,12 +13,13 @@ constexpr int kRayUnit = 14;  // beside those of structs.glsl
 // A negative t stands for a loop that was cut short.
 constexpr std::string_view kShader = R"(#version 450 core
 #include "traverse.glsl"
+#include "work_groups.glsl"
 layout(local_size_x = 64) in;
 FETCHED_VEC4(rays, 14);
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer AnswerBuffer { vec2 answers[]; };
 
 void main() {
-  int index = int(gl_GlobalInvocationID.x);
+  int index = int(dealt_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
   vec3 origin = fetch(rays, 2 * index).xyz;
   vec3 direction = fetch(rays, 2 * index + 1).xyz;
 #ifdef OCCLUSION
@@ -72,7 +74,7 @@ std::vector<Answer> RayBuffers::answers() const {
 
 RayShader::RayShader(bool occlusion, gpu::Defines defines)
     : program_(gpu::assemble("bench_rays.comp", kShader,
-                             gpu::with_fetch(with_kind(occlusion, std::move(defines))))) {}
+                             gpu::for_driver(with_kind(occlusion, std::move(defines))))) {}
 
 void RayShader::trace(const RayBuffers& rays) const {
   rays.bind();

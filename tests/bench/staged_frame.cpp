@@ -1,6 +1,7 @@
 #include "tests/bench/staged_frame.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_source.h"
 #include "engine/tracer/parameters.h"
@@ -62,7 +63,7 @@ gpu::Program program_of(TraceForm form, const gpu::Defines& defines) {
   const std::size_t place = text.find(kBefore);
   check(place != std::string::npos, "trace.comp does not include path.glsl any more");
   text.insert(place, kChanges[static_cast<std::size_t>(form)]);
-  return gpu::Program(gpu::assemble("trace.comp of the benchmark", text, gpu::with_fetch(defines)));
+  return gpu::Program(gpu::assemble("trace.comp of the benchmark", text, gpu::for_driver(defines)));
 }
 
 std::array<gpu::Program, kTraceForms.size()> programs_of(const gpu::Defines& defines) {

@@ -44,7 +44,7 @@ LongSum sum_of_million(const std::string& sample) {
       std::to_string(kFrames) + "u + i;\n    float x = " + sample +
       ";\n    sums[0] = with_sample(sums[0], vec3(x));\n    plain += x;\n    ++i;\n  } while (i < " +
       std::to_string(kFrames) + "u);\n}\n";
-  gpu::Program program(gpu::assemble("long_sum", text, gpu::with_fetch({})));
+  gpu::Program program(gpu::assemble("long_sum", text, gpu::for_driver({})));
   for (std::uint32_t part = 0; part < kMillion / kFrames; ++part) {
     program.set_frame(part);
     program.dispatch(1);

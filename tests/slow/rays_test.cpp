@@ -1,6 +1,7 @@
 // Ray queries by the million: against the oracle in double precision, every difference explained, and into
 // closed surfaces, which no ray may leave.
 #include "engine/accel/traverse.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/scene_buffers.h"
 #include "engine/scene/gltf.h"
 #include "tests/support/bumpy_ball.h"
@@ -125,7 +126,7 @@ std::uint64_t leaks_of(glm::vec3 middle, const Walk& walk) {
                     "layout(std430, binding = BINDING_OUTPUT) buffer Results { uint results[]; };\n"
                     "void main() { uint index = gl_GlobalInvocationID.x;\n" +
                         body + "}\n",
-                    gpu::with_fetch(walk.defines)));
+                    gpu::for_driver(walk.defines)));
   gpu::Buffer output("leaks", 16);
   output.bind_storage(gpu::BINDING_OUTPUT);
   for (std::uint32_t batch = 1; batch <= kLeakBatches; ++batch) {

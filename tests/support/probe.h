@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/structs.h"
 #include "tests/support/device.h"
@@ -25,7 +26,7 @@ std::vector<T> probe(const std::string& type, const std::vector<std::string>& in
   text +=
       "\nvoid main() {\n  uint index = gl_GlobalInvocationID.x;\n  if (index >= " + std::to_string(count) +
       "u) return;\n  " + type + " result;\n" + body + "\n  results[index] = result;\n}\n";
-  const gpu::Program program(gpu::assemble("probe", text, gpu::with_fetch(defines)));
+  const gpu::Program program(gpu::assemble("probe", text, gpu::for_driver(defines)));
   gpu::Buffer output("probe results", count * sizeof(T));
   output.bind_storage(gpu::BINDING_OUTPUT);
   program.dispatch((count + 63) / 64);

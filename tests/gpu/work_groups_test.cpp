@@ -1,0 +1,48 @@
+// How work is dealt to the groups of a dispatch.
+#include "tests/support/probe.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace qtrace::test {
+namespace {
+
+// By group, which part it does.
+std::vector<std::uint32_t> dealt(std::uint32_t groups, int threads, int piece) {
+  device();
+  const auto seen = probe<std::uint32_t>(
+      "uint", {"structs.glsl", "work_groups.glsl"}, "", "result = dealt_group();", 64 * groups,
+      {{"WORK_THREADS", std::to_string(threads)}, {"WORK_PIECE", std::to_string(piece)}});
+  std::vector<std::uint32_t> parts(groups);
+  for (std::size_t i = 0; i < groups; ++i) parts[i] = seen[64 * i];
+  return parts;
+}
+
+TEST(WorkGroups, DoEveryPartOnce) {
+  for (const int threads : {1, 2, 3, 16}) {
+    for (const int piece : {1, 16}) {
+      for (const std::uint32_t groups : {1U, 7U, 31U, 32U, 33U, 100U, 1000U}) {
+        std::vector<std::uint32_t> all(groups);
+        std::iota(all.begin(), all.end(), 0U);
+        auto parts = dealt(groups, threads, piece);
+        std::ranges::sort(parts);
+        EXPECT_EQ(parts, all) << fmt::format("{} threads, pieces of {}, {} groups", threads, piece, groups);
+      }
+    }
+  }
+}
+
+TEST(WorkGroups, OfTwoThreadsTakeTurns) {
+  EXPECT_EQ(dealt(9, 2, 2), (std::vector<std::uint32_t>{0, 1, 4, 5, 2, 3, 6, 7, 8}));
+  EXPECT_EQ(dealt(6, 2, 1), (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
+}
+
+TEST(WorkGroups, OfOneThreadKeepTheirOrder) {
+  EXPECT_EQ(dealt(5, 1, 1), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+}
+
+}  // namespace
+}  // namespace qtrace::test
