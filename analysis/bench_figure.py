@@ -48,6 +48,7 @@ def load_parts(folder: Path) -> dict[str, pd.DataFrame]:
     if is_software(folder):
         for name, rows in parts.items():
             rows[RATIOS[name]] = rows[f"cpu_{RATIOS[name]}"]
+            rows.attrs["clock"] = " by CPU time"
     return parts
 
 
@@ -88,13 +89,13 @@ def _draw_rays(figure: Figure, place: SubplotSpec, rays: pd.DataFrame) -> None:
         labels = ["" if row.tracer == "Embree" else f"{row.speed_over_embree:.2f}" for row in rows.itertuples()]
         _grouped_bars(axes, rows, "kind", "tracer", "mrays_per_s", labels)
         axes.set_title(scene, loc="left")
-        axes.set_ylabel("Mrays/s (above: over Embree)")
+        axes.set_ylabel(f"Mrays/s\n(above: over Embree{rays.attrs.get('clock', '')})")
 
 
 def _draw_frames(figure: Figure, place: SubplotSpec, frames: pd.DataFrame) -> None:
     axes = figure.add_subplot(place)
     _grouped_bars(axes, frames, "scene", "method", "wall_ms", [f"{value:.2f}" for value in frames.over_plain])
-    axes.set_ylabel("ms per frame (above: over BSDF)")
+    axes.set_ylabel(f"ms per frame\n(above: over BSDF{frames.attrs.get('clock', '')})")
     axes.set_title(f"The report's table, {frames['size'].iloc[0]}²", loc="left")
 
 
@@ -114,7 +115,7 @@ def _draw_steps(figure: Figure, place: SubplotSpec, steps: pd.DataFrame) -> None
             left += share
     axes.set_yticks(range(len(cells)), [f"{scene}\n{method}" for scene, method in cells], fontsize=8)
     axes.set_ylim(len(cells) - 0.5, -0.5)
-    axes.set_xlabel("% of the frame")
+    axes.set_xlabel(f"% of the frame{steps.attrs.get('clock', '')}")
     axes.grid(axis="y", visible=False)
     axes.legend(fontsize=7, ncols=3, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
