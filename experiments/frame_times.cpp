@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace qtrace::experiments {
 namespace {
@@ -18,6 +20,13 @@ double scaled_mad(const std::vector<double>& values, double middle) {
   std::vector<double> distances;
   for (const double value : values) distances.push_back(std::abs(value - middle));
   return kScaledMad * median(distances);
+}
+
+// Whether a frame asked the table, and whether it taught it: each costs time.
+using Work = std::pair<bool, bool>;
+
+Work work_of(const FrameRecord& frame) {
+  return {frame.statistics.cell_lookups > 0, frame.statistics.table_updates > 0};
 }
 
 std::string noise_warning(const std::vector<RunRecord>& records) {
@@ -66,9 +75,18 @@ std::string warmup_warning(const std::vector<RunRecord>& records) {
 
 std::vector<double> times_per_ray(const RunRecord& record) {
   std::vector<double> times;
+  std::map<Work, std::vector<double>> by_work;
   for (const FrameRecord& frame : record.frames) {
     if (frame.statistics.rays == 0) continue;
     times.push_back(frame.host_ms * 1e6 / static_cast<double>(frame.statistics.rays));
+    by_work[work_of(frame)].push_back(times.back());
+  }
+  if (by_work.size() < 2) return times;
+  const double usual = median(
+      std::ranges::max_element(by_work, {}, [](const auto& kind) { return kind.second.size(); })->second);
+  auto time = times.begin();
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.statistics.rays != 0) *time++ *= usual / median(by_work.at(work_of(frame)));
   }
   return times;
 }

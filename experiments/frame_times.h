@@ -18,7 +18,8 @@ constexpr double kNoisyOutliers = 0.1;  // ... for more than this share of the f
 constexpr std::size_t kFewestFrames = 8;  // fewer say nothing
 
 // Milliseconds per million rays of every frame, by the host clock: paths grow longer or shorter as a table is
-// learned, which is work and not noise. Frames without rays are left out.
+// learned, which is work and not noise. So is teaching the table, or leaving it out: times of frames that do
+// so are scaled to the median of the others. Frames without rays are left out.
 std::vector<double> times_per_ray(const RunRecord& record);
 
 // The same without warm-up, neither what warmup_frames says nor the slow first frames: what noise is judged

@@ -22,15 +22,14 @@ INSIDE = "bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessTha
 HAS_AREA = ("return twice_area > kMinRelativeHeight * longest && "
             "twice_area >= std::numeric_limits<float>::min();")
 
-# Nothing was found to take out of the others, or nothing that a verdict depends on: triangles without area (no ray is
-# on one side of all their edges, so that they are not met even where the loader keeps them), no light, environment
-# alone, one triangle, roughness 0.05, five million triangles.
+# Where a case depends on no line that was written for it alone, an error stands in for one that the case is there to
+# see. Triangles without area have two protections, each of which is enough.
 PROTECTIONS = [
     Protection("edges belong to their triangles", ("white furnace", "camera in geometry"), (Edit(
         INTERSECT, INSIDE,
         "float margin = 1e-4 * abs(weights.x + weights.y + weights.z);\n"
         "  bool inside = all(greaterThanEqual(weights, vec3(margin))) || all(lessThanEqual(weights, vec3(-margin)));"),)),
-    Protection("rays leave surfaces off them and off their edges", ("white furnace", "camera in geometry", "room"),
+    Protection("rays leave surfaces off them and off their edges", ("white furnace", "camera in geometry"),
                (Edit(SURFACE, ORIGIN, "return s.position;"),)),
     Protection("scenes far from the origin are moved there", ("white furnace, moved", "room, moved 10,000"), (Edit(
         "engine/scene/gltf_origin.cpp", "constexpr double kFar = 64;", "constexpr double kFar = 1e30;"),)),
@@ -55,10 +54,32 @@ PROTECTIONS = [
         "shaders/learn.comp",
         "q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);",
         "q_visits[entry] = q_visits[entry] + targets;"),), True),
-    Protection("targets are clamped", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",
-                                       "TargetsBeyondTheFixedPointAreCounted"), (Edit(
+    Protection("targets are clamped", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
         "shaders/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
-    Protection("full sums stay full", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",
-                                       "TargetsBeyondTheFixedPointAreCounted"), (Edit(
+    Protection("full sums stay full", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
         "shaders/gathered.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
+    Protection("bins have a floor, and none vanishes", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",), (Edit(
+        "shaders/learn.comp", "uint floor_width = uint(floor_share * (FLOOR_RANGE / float(BINS)));",
+        "uint floor_width = 0u;"),), True),
+    Protection("counts run over into the next word", ("AMillionUpdatesOfOneEntryAreTheirMean",), (Edit(
+        "shaders/columns.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
+    Protection("triangles without area are dropped, and NaN is no hit", ("triangles without area",), (
+        Edit("engine/scene/gltf_triangle.cpp", HAS_AREA, "return kMinRelativeHeight * longest >= 0 && twice_area >= 0;"),
+        Edit(INTERSECT, "if (inside && t > 0.0 && t < hit.t)", "if (inside && !(t <= 0.0) && !(t >= hit.t))"))),
+    Protection("emission met after a light sample is weighted", ("room",), (Edit(
+        NEE, "return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));",
+        "return 1.0;"),)),
+    Protection("specular directions have the density that they are drawn with",
+               ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
+        "shaders/bsdf.glsl", "ggx_distribution(s.normal, h, b.alpha) * 0.25;", "ggx_distribution(s.normal, h, b.alpha) * 0.2;"),)),
+    Protection("without lights, nothing samples them", ("no light",), (Edit(
+        "engine/tracer/shader_variant.cpp", "if (features.lights == 0) settings.nee = Nee::none;", ""),)),
+    Protection("the environment is met after every event", ("environment alone",), (Edit(
+        "shaders/path.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
+    Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
+        "engine/gpu/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",
+        "uvec4(0), uvec4(0, 0, link(0), link(0))"),)),
+    Protection("links have room for millions of triangles", ("five million triangles",), (Edit(
+        "shaders/wide_nodes.glsl", "return (leaf & ~LEAF_LINK) >> LEAF_BITS;",
+        "return ((leaf & ~LEAF_LINK) >> LEAF_BITS) & 0x3fffffu;"),)),
 ]

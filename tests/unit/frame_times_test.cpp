@@ -69,6 +69,33 @@ TEST(FrameTimes, LongerPathsAreNoNoise) {
   EXPECT_EQ(time_warnings({record}), "");
 }
 
+// 16 frames that teach, then every fourth, and a trial that leaves the table out.
+RunRecord learning_record() {
+  RunRecord record = record_of({});
+  for (int i = 0; i < 48; ++i) {
+    const bool teaches = i < 16 || i % 4 == 0;
+    const bool asks = i < 16 || i > 23 || i % 2 == 0;
+    FrameRecord frame;
+    frame.is_warmup = i == 0;
+    frame.statistics.rays = 1'000'000;
+    frame.statistics.table_updates = teaches && asks ? 1000 : 0;
+    frame.statistics.cell_lookups = asks ? 1000 : 0;
+    frame.host_ms = (asks ? teaches ? 150 : 110 : 80) + i % 3 - 1;
+    record.frames.push_back(frame);
+  }
+  return record;
+}
+
+TEST(FrameTimes, TeachingIsNeitherNoiseNorWarmup) {
+  RunRecord record = learning_record();
+  EXPECT_EQ(is_noisy(settled_times(record)), false);
+  EXPECT_EQ(slow_first_frames(times_per_ray(record)), 0);
+  record.frames[0].host_ms = record.frames[1].host_ms = 400;
+  EXPECT_EQ(slow_first_frames(times_per_ray(record)), 2);
+  for (std::size_t i = 0; i < record.frames.size(); i += 5) record.frames[i].host_ms *= 1.5;
+  EXPECT_EQ(is_noisy(settled_times(record)), true);
+}
+
 TEST(FrameTimes, OneWarningForAllRunsSaysWhatToDo) {
   std::vector<double> late = steady(), noisy = steady();
   late[0] = late[1] = late[2] = 300;
