@@ -14,11 +14,11 @@ import pandas as pd
 from analysis.statistics import estimate, signed_estimate, t_quantile, t_tail
 
 # Figures of summary.csv of either sign, whose intervals are symmetric.
-SIGNED = ("psnr_db", "bias", "clamp_bias", "slope_mse", "slope_relmse")
+SIGNED = ("mse_corrected", "relmse_corrected", "psnr_db", "bias", "clamp_bias", "slope_mse", "slope_relmse")
 FIGURES = ("host_ms_median", "gpu_ms_median", "setup_s", "elapsed_s", "gpu_elapsed_s", "mse", "relmse",
-           "relmse_trimmed", "mape", "smape", "psnr_db", "flip", "bias", "relmse_x_s", "slope_mse", "slope_relmse",
-           "filtered_relmse", "filter_ms", "mean_path_length", "zero_path_fraction", "clamp_bias",
-           "fireflies_per_million")
+           "relmse_trimmed", "mse_corrected", "relmse_corrected", "mape", "smape", "psnr_db", "flip", "bias",
+           "relmse_x_s", "slope_mse", "slope_relmse", "filtered_relmse", "filter_ms", "mean_path_length",
+           "zero_path_fraction", "clamp_bias", "fireflies_per_million")
 FEWEST_POINTS = 3  # of a slope
 
 

@@ -45,6 +45,8 @@ const std::vector<CellFigure>& cell_figures() {
       {"mse"},
       {"relmse"},
       {"relmse_trimmed"},
+      {"mse_corrected", true},
+      {"relmse_corrected", true},
       {"mape"},
       {"smape"},
       {"psnr_db", true},

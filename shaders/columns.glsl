@@ -44,7 +44,7 @@ Choice choose_column(uint first, uint count, uint word) {
 
 // Adds a target, in its column's units, to this frame's sum (TargetSum in structs.glsl). Integer sums do not depend on
 // the order of threads. Returns whether the target was clamped.
-// One addition a turn, and nearly always one turn: llvmpipe adds lane by lane.
+// One addition a turn, and seldom more than two turns: llvmpipe adds lane by lane.
 bool gather_units(uint entry, float target) {
   float units = round(min(target, TARGET_LIMIT));
   uint high = uint(units * (1.0 / SUM_HIGH_UNIT));

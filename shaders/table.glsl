@@ -1,7 +1,8 @@
 // Layout of the table: a row for every cell, with a column for every direction bin and then one for every light
-// whose use is learned, and two for the mixture of BSDF and table where that is. A direction's value is the expected incident radiance, averaged over the channels; a
-// light's is the mean square of what it contributes when it is chosen, in units of the brightest light. A mixture's is
-// the mean square of what its directions brought by the BSDF, and by the table.
+// whose use is learned, and two for the mixture of BSDF and table where that is. A direction's value is the expected
+// incident radiance, averaged over the channels; a light's is the mean square of what it contributes when it is chosen,
+// in units of the brightest light. A mixture's is the mean square of what its directions brought by the BSDF, and by
+// the table.
 #if SAMPLER == SAMPLER_RL
 #include "bins.glsl"
 #else

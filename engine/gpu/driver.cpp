@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <string>
 #include <thread>
@@ -18,8 +19,9 @@ constexpr unsigned kMostLlvmpipeThreads = 16;
 // As llvmpipe counts them. 0 of LP_NUM_THREADS: the calling thread does everything.
 unsigned llvmpipe_threads() {
   const char* asked = std::getenv("LP_NUM_THREADS");
-  const auto count = asked != nullptr ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10))
-                                      : std::thread::hardware_concurrency();
+  const bool is_number = asked != nullptr && std::isdigit(static_cast<unsigned char>(*asked)) != 0;
+  const auto count = is_number ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10))
+                               : std::thread::hardware_concurrency();
   return std::clamp(count, 1U, kMostLlvmpipeThreads);
 }
 

@@ -1,4 +1,4 @@
-// What the driver of the current context is compiled for.
+// What shaders are compiled for besides scene and run: the driver of the current context.
 #pragma once
 
 #include "engine/gpu/shader_source.h"

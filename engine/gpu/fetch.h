@@ -10,7 +10,8 @@ namespace qtrace::gpu {
 enum class Fetch { texture, image, storage };
 
 // Of the current context. llvmpipe turns loads of storage into loops over the lanes of a SIMD register, and
-// loads of images into gathers (./dev bench compares all three); GPUs have a cache for textures.
+// loads of images into gathers (./dev bench --variant NAME:FETCH=0,1,2 compares them); GPUs have a cache for
+// textures.
 Fetch best_fetch();
 
 // Whether the current context has as many units as shaders fetch from in this way (NVIDIA: 8 of images).

@@ -1,4 +1,5 @@
 #include "engine/gpu/program_cache.h"
+
 #include "engine/gpu/driver.h"
 
 #include <utility>

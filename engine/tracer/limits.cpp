@@ -1,5 +1,7 @@
 #include "engine/tracer/limits.h"
 
+#include "engine/gpu/driver.h"
+
 #include "engine/cells/site_counts.h"
 #include "engine/core/check.h"
 #include "engine/gpu/buffer.h"
@@ -39,8 +41,7 @@ int search_turns(const Scene& scene, const RlSettings& settings) {
 
 void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const RenderSettings& settings,
                        std::size_t columns) {
-  const bool is_limited = device.renderer.find("llvmpipe") != std::string::npos;
-  if (!is_limited) return;
+  if (!gpu::is_llvmpipe()) return;
   check(
       columns <= kLoopBudget / kLoopsPerColumn / 2,
       "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "

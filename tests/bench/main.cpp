@@ -58,7 +58,7 @@ void add_options(CLI::App& app, Options& options) {
   constexpr int kMost = 1024;
   constexpr int kMostSize = 2040;  // its rays are within 65,535 work groups
   constexpr int kTile = 8;
-  app.add_flag("--quick", options.quick, "a minute instead of a quarter of an hour, with wider spreads");
+  app.add_flag("--quick", options.quick, "a minute instead of ten, with wider spreads");
   app.add_option("--only", options.only, "one part of it")
       ->check(CLI::IsMember({"rays", "limits", "frames", "steps", "designs", "growth"}));
   app.add_option("--scenes", options.rays.scenes, "of the rays: glTF files, or room:TRIANGLES")

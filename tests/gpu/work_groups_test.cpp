@@ -36,8 +36,13 @@ TEST(WorkGroups, DoEveryPartOnce) {
 }
 
 TEST(WorkGroups, OfTwoThreadsTakeTurns) {
-  EXPECT_EQ(dealt(9, 2, 2), (std::vector<std::uint32_t>{0, 1, 4, 5, 2, 3, 6, 7, 8}));
-  EXPECT_EQ(dealt(6, 2, 1), (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
+  EXPECT_EQ(dealt(7, 2, 16), (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5, 6}));  // too few for longer pieces
+  const std::vector<std::uint32_t> parts = dealt(67, 2, 16);                      // 8 pieces of 4 each
+  EXPECT_EQ(std::vector(parts.begin(), parts.begin() + 6), (std::vector<std::uint32_t>{0, 1, 2, 3, 8, 9}));
+  EXPECT_EQ(std::vector(parts.begin() + 32, parts.begin() + 37),
+            (std::vector<std::uint32_t>{4, 5, 6, 7, 12}));
+  EXPECT_EQ(std::vector(parts.end() - 3, parts.end()), (std::vector<std::uint32_t>{64, 65, 66}));
+  EXPECT_EQ(dealt(1000, 2, 16)[16], 32U);
 }
 
 TEST(WorkGroups, OfOneThreadKeepTheirOrder) {
