@@ -138,7 +138,7 @@ void expect_the_same_in_any_order(const Scene& scene, UpdateRule rule, bool satu
   EXPECT_EQ(plain.saturated > 0, saturates);
   for (const char* threads :
        {"1", "2", "29"}) {  // as they come, from both halves in turn, far from neighbours
-    const Bits shuffled = rendered(scene, rule, {{"WORK_THREADS", threads}, {"WORK_PIECE", "1"}});
+    const Bits shuffled = rendered(scene, rule, {{"WORK_THREADS", threads}, {"WORK_PIECE_BITS", "0"}});
     EXPECT_TRUE(same_bytes(plain.image.mean, shuffled.image.mean)) << threads;
     EXPECT_TRUE(same_bytes(plain.image.variance, shuffled.image.variance)) << threads;
     EXPECT_TRUE(same_bytes(plain.values, shuffled.values)) << threads;

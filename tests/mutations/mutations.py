@@ -117,7 +117,7 @@ MUTATIONS = [
              "hit = Hit(t, triangle, weights.zy);"),
     Mutation("hits behind the origin", "intersect.glsl", "if (inside && t > 0.0 && t < hit.t)",
              "if (inside && abs(t) < hit.t)"),
-    Mutation("tiles are dealt twice", "work_groups.glsl", "* uint(WORK_THREADS) + group / share)", "* uint(WORK_THREADS))"),
+    Mutation("tiles are dealt twice", "work_groups.glsl", "* uint(WORK_THREADS) + thread)", "* uint(WORK_THREADS))"),
     Mutation("counts beyond the low word are forgotten", "gathered.glsl", " + (beyond_low(sum) << SUM_LOW_COUNT_BITS)", ""),
     Mutation("paths end where the table expects nothing", "roulette.glsl", "value / path.expected, least, 1.0)",
              "value / path.expected, 0.0, 1.0)"),
