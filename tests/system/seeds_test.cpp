@@ -52,6 +52,21 @@ TEST_F(RunProgram, CellsAndRatiosHaveIntervals) {
   EXPECT_TRUE(contains(outcome.out, "time to the baseline's relMSE"));
 }
 
+// Many short runs tell a sampler that is biased from one that is noisy.
+TEST_F(RunProgram, BiasIsToldFromVariance) {
+  const Outcome outcome = run("bias", R"("sampler": "bsdf", "nee": "one_ray", "sweep": [
+      {"samples": {"whole": {"reference.frames": 4096},
+                   "clamped": {"reference.frames": 4096, "clamp_radiance": 0.3}}},
+      {"seed": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]}], )");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto cells = parse_csv(folder_.read("results/bias/cells.csv"));
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_LE(std::stod(cells[0].at("bias2_low")), 0) << "of whole samples";
+  EXPECT_EQ(std::stod(cells[0].at("abs_bias_low")), 0) << "of whole samples";
+  EXPECT_GT(std::stod(cells[1].at("abs_bias_low")), 0) << "of clamped samples";
+  EXPECT_LT(std::stod(cells[1].at("variance")), std::stod(cells[0].at("variance")));
+}
+
 TEST_F(RunProgram, AnUnknownBaselineIsRefused) {
   const Outcome outcome = run("lost", std::string(kMethods) + R"("baseline": "NEE, one rai", )");
   EXPECT_EQ(outcome.exit_code, 1);
