@@ -56,7 +56,11 @@ std::string name_of(const std::string& scene) { return scene.substr(0, scene.fin
 std::string verdict(const Agreement& found) {
   const double errors = std::abs(found.mean_ratio - 1) / found.mean_ratio_error;
   if (!found.agrees(kChance) || std::abs(found.pixels.value - 1) > kChi2Bound) return "**differs**";
-  if (errors <= kErrors) return "agrees";
+  if (errors <= kErrors) {
+    return found.mean_ratio_error <= kPrecision
+               ? "agrees"
+               : fmt::format("agrees, mean to {:.1f} %", 100 * found.mean_ratio_error);
+  }
   // Of so many comparisons, some are there by chance.
   return fmt::format("within chance, mean off by {:.1f} errors", errors);
 }
