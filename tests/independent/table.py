@@ -18,10 +18,10 @@ difference and its variance, 1 if both show the same: per pixel, and of the mean
 that of the two images. All with one standard error. `frames` are the renderer's samples per pixel, `samples` the
 independent tracer's: as many as it takes for 0.1 % of the mean, or the most that are spent, where the error says what
 was reached. "agrees": χ² per pixel within 0.9 to 1.1, the mean within three standard errors, and all three figures
-within what chance makes of true ones but once in 10,000 comparisons. The methods of a scene share the independent
-tracer's image. Left out are door_ajar without next event estimation, where chance finds the lamp too rarely to tell
-anything, and glossy_room with the uniform sampler, whose directions miss its narrow lobes. `./dev independent` makes it
-again, `./dev independent SCENE` one scene.
+within what chance makes of true ones but once in 10,000 comparisons; where the mean is known to less than 0.1 %, to what.
+The methods of a scene share the independent tracer's image. Left out are door_ajar without next event estimation, where
+chance finds the lamp too rarely to tell anything, and glossy_room with the uniform sampler, whose directions miss its
+narrow lobes. `./dev independent` makes it again, `./dev independent SCENE` one scene.
 """
 
 

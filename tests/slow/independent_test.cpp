@@ -59,7 +59,7 @@ std::string verdict(const Agreement& found) {
   if (errors <= kErrors) {
     return found.mean_ratio_error <= kPrecision
                ? "agrees"
-               : fmt::format("agrees, mean to {:.1f} %", 100 * found.mean_ratio_error);
+               : fmt::format("agrees, mean to {:.2f} %", 100 * found.mean_ratio_error);
   }
   // Of so many comparisons, some are there by chance.
   return fmt::format("within chance, mean off by {:.1f} errors", errors);
