@@ -85,12 +85,8 @@ TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   EXPECT_LT(errors[2], errors[0]);
 }
 
-// Paths that roulette ends teach nothing beyond, and those that survive teach so much more.
-TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
-  RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
-  settings.russian_roulette_start = 2;
-  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
-  render(tracer, 400);
+// Of all that were gathered, where each entry is the mean of its own.
+double mean_target(Tracer& tracer) {
   const std::vector<float> values = tracer.table()->values();
   const std::vector<std::uint32_t> visits = tracer.table()->visits();
   double sum = 0;
@@ -99,7 +95,27 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
     sum += double{values[i]} * visits[i];
     weight += visits[i];
   }
-  EXPECT_NEAR(sum / weight, 2, 0.05);
+  return sum / weight;
+}
+
+// Paths that roulette ends teach nothing beyond, and those that survive teach so much more.
+TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
+  RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
+  settings.russian_roulette_start = 2;
+  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
+  render(tracer, 400);
+  EXPECT_NEAR(mean_target(tracer), 2, 0.05);
+}
+
+// The report's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
+// second, and what lamps send there.
+TEST(MonteCarloRule, CountsTheLightOfThePathsLastEvent) {
+  RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
+  settings.nee = Nee::two_ray;
+  settings.max_bounces = 2;
+  Tracer tracer(device(), furnace_box(0.5F, 1.0F), settings);
+  render(tracer, 200);
+  EXPECT_NEAR(mean_target(tracer), 1 + 0.5, 0.02);
 }
 
 // Where the table's own state is a cell, the truth is the mean over the cell and the bin: hits of camera rays

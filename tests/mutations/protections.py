@@ -39,11 +39,12 @@ PROTECTIONS = [
     Protection("triangles are too flat by their shape, not by a size", ("tiny bright light",), (Edit(
         "engine/scene/gltf_triangle.cpp", HAS_AREA,
         "return kMinRelativeHeight > 0 && twice_area > 1e-4;"),)),
-    Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001", "room, scaled 10,000"),
+    Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001",),
                (Edit(SURFACE, OFFSET, "s.offset = 1e-3;"),)),
-    Protection("slivers are triangles", ("slivers",), (Edit(
-        "engine/scene/gltf_triangle.cpp", "constexpr double kMinRelativeHeight = 1e-7;",
-        "constexpr double kMinRelativeHeight = 1e-4;"),)),
+    Protection("no length is too far", ("room, scaled 10,000",), (Edit(
+        "shaders/traverse.glsl", "Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));", "Hit hit = Hit(1e4, NO_TRIANGLE, vec2(0.0));"),)),
+    Protection("a light's triangles are chosen by their area", ("slivers",), (Edit(
+        "shaders/lights.glsl", "return fraction <= link.z ? triangle : link.x;", "return triangle;"),)),
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
         "engine/scene/gltf.cpp", "  drop_duplicates(source, scene);\n", ""),)),
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
