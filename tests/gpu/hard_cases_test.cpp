@@ -153,13 +153,17 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
          fmt::format("{}; {} targets of the first frames saturated", measured, saturated));
 }
 
-// A full sum counts every target that it has lost, and a single one beyond the limit is counted as well.
+// A full sum counts every target that it has lost, and a single one beyond the limit is counted as well. That
+// of entry 1 does not end at the limit: its last target takes it beyond.
 TEST_F(HardCases, TargetsBeyondTheFixedPointAreCounted) {
   constexpr std::uint32_t kTargets = 1 << 17;
   table_->bind();
   const auto clamped =
       probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
                         "result = uvec4(gather_target(0u, 1e30) ? 1u : 0u);", kTargets, defines_);
+  probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+                    "gather_target(1u, 0.875 * TARGET_LIMIT * TARGET_UNIT); result = uvec4(0u);", kTargets,
+                    defines_);
   statistics_.bind_storage(gpu::BINDING_STATISTICS);
   statistics_.clear();
   table_->learn();
@@ -170,8 +174,9 @@ TEST_F(HardCases, TargetsBeyondTheFixedPointAreCounted) {
   statistics_.read(0, &block, sizeof(block));
   const double limit = 9223372036854775808.0 / 1048576.0;
   EXPECT_EQ(noticed, kTargets);
-  EXPECT_EQ(block.counters[2 * gpu::STATISTIC_SATURATED], kTargets);
+  EXPECT_EQ(block.counters[2 * gpu::STATISTIC_SATURATED], 2 * kTargets);
   EXPECT_NEAR(table_->values()[0] / (limit / kTargets), 1, 1e-5);
+  EXPECT_NEAR(table_->values()[1] / (limit / kTargets), 1, 1e-6);
   record("131,072 targets of 1e30 in one frame", fmt::format("value {:.7g}, all counted", limit / kTargets),
          fmt::format("value {:.7g}, {} counted", table_->values()[0], noticed));
 }

@@ -23,7 +23,8 @@ HAS_AREA = ("return twice_area > kMinRelativeHeight * longest && "
             "twice_area >= std::numeric_limits<float>::min();")
 
 # Where a case depends on no line that was written for it alone, an error stands in for one that the case is there to
-# see. Triangles without area have two protections, each of which is enough.
+# see. Triangles without area are not here: kept by the loader, and with NaN taken for a hit besides, they still leave the
+# picture as it is.
 PROTECTIONS = [
     Protection("edges belong to their triangles", ("white furnace", "camera in geometry"), (Edit(
         INTERSECT, INSIDE,
@@ -64,17 +65,14 @@ PROTECTIONS = [
         "uint floor_width = 0u;"),), True),
     Protection("counts run over into the next word", ("AMillionUpdatesOfOneEntryAreTheirMean",), (Edit(
         "shaders/columns.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
-    Protection("triangles without area are dropped, and NaN is no hit", ("triangles without area",), (
-        Edit("engine/scene/gltf_triangle.cpp", HAS_AREA, "return kMinRelativeHeight * longest >= 0 && twice_area >= 0;"),
-        Edit(INTERSECT, "if (inside && t > 0.0 && t < hit.t)", "if (inside && !(t <= 0.0) && !(t >= hit.t))"))),
     Protection("emission met after a light sample is weighted", ("room",), (Edit(
         NEE, "return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));",
         "return 1.0;"),)),
     Protection("specular directions have the density that they are drawn with",
                ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
         "shaders/bsdf.glsl", "ggx_distribution(s.normal, h, b.alpha) * 0.25;", "ggx_distribution(s.normal, h, b.alpha) * 0.2;"),)),
-    Protection("without lights, nothing samples them", ("no light",), (Edit(
-        "engine/tracer/shader_variant.cpp", "if (features.lights == 0) settings.nee = Nee::none;", ""),)),
+    Protection("what does not emit is black", ("no light",), (Edit(
+        SURFACE, "return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
     Protection("the environment is met after every event", ("environment alone",), (Edit(
         "shaders/path.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
     Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
