@@ -46,7 +46,8 @@ float bsdf_share_of(Event e) {
 #ifdef LEARNS_MIXTURE
   float share = e.cell.index == NO_CELL ? 1.0 : fetch_one(bsdf_shares, e.cell.index);
 #ifdef HAS_SPECULAR
-  // A specular lobe depends on where it is seen from and is narrower than bins are: what the BSDF leaves to it stays its own.
+  // A specular lobe depends on where it is seen from and is narrower than bins are: what the BSDF leaves to it stays
+  // its own.
   if (!is_lambert(e.bsdf)) share = mix(share, 1.0, specular_share(e.bsdf, dot(e.surface.normal, e.wo)));
 #endif
   return share;

@@ -1,10 +1,9 @@
 #include "engine/tracer/limits.h"
 
-#include "engine/gpu/driver.h"
-
 #include "engine/cells/site_counts.h"
 #include "engine/core/check.h"
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"

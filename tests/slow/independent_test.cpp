@@ -24,9 +24,9 @@ constexpr int kFrames = 512;
 
 // At most, so that a scene takes some ten minutes on two cores. Small lights that are found by chance need
 // most frames. In glossy_room few paths of the independent tracer bring most of what its lobes show (see
-// pooled_chi2): beside the mean of eight learned images, 2048 samples have a chi-square of 1.31, and one
-// learned image 1.00 to 1.01; so has the renderer's own BSDF sampling, 1.17 after 2048 frames. Hence half an
-// hour for that scene.
+// pooled_chi2): beside the mean of eight learned images, its 2048 samples have a chi-square of 1.31 and 2048
+// frames of the renderer's BSDF sampling 1.17, but another learned image 1.00. Hence half an hour for that
+// scene.
 struct Work {
   int samples, frames;
 };

@@ -71,17 +71,14 @@ TEST(FrameTimes, LongerPathsAreNoNoise) {
 
 // 16 frames that teach, then every fourth, and a trial that leaves the table out.
 RunRecord learning_record() {
-  RunRecord record = record_of({});
-  for (int i = 0; i < 48; ++i) {
+  RunRecord record = record_of(std::vector<double>(48));
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const bool teaches = i < 16 || i % 4 == 0;
     const bool asks = i < 16 || i > 23 || i % 2 == 0;
-    FrameRecord frame;
-    frame.is_warmup = i == 0;
-    frame.statistics.rays = 1'000'000;
+    FrameRecord& frame = record.frames[i];
     frame.statistics.table_updates = teaches && asks ? 1000 : 0;
     frame.statistics.cell_lookups = asks ? 1000 : 0;
-    frame.host_ms = (asks ? teaches ? 150 : 110 : 80) + i % 3 - 1;
-    record.frames.push_back(frame);
+    frame.host_ms = (asks ? teaches ? 150 : 110 : 80) + static_cast<double>(i % 3) - 1;
   }
   return record;
 }
