@@ -1,5 +1,5 @@
 """What cells.csv and ratios.csv hold, computed again from the files of the runs, with the formulas of
-experiments/curve.h and experiments/ratios.h: for results from before the program wrote them, for comparisons that it
+experiments/records/curve.h and experiments/records/ratios.h: for results from before the program wrote them, for comparisons that it
 does not make, and as a check of it."""
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ The interval is Student's t, symmetric about the logarithm of the mean: with m t
 deviation and n seeds, log m has the standard error s / (m sqrt(n)) to first order (delta method), hence
 m * exp(+-t s / (m sqrt(n))). For small errors that is m +- t s / sqrt(n); for large ones it stays
 above zero, as errors do and logarithmic axes need, and is skewed upwards, as errors are. cells.csv, written by
-`qtrace run`, has the same intervals: experiments/statistics.h.
+`qtrace run`, has the same intervals: experiments/measure/statistics.h.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ RATIOS = {
 }
 
 
-SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/table.cpp
+SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/records/table.cpp
 
 
 def slope_is_off(cell: Row, name: str) -> str:

@@ -6,7 +6,7 @@
 
 namespace qtrace::gpu {
 
-// In the order of the values in shaders/fetch.glsl.
+// In the order of the values in shaders/shared/fetch.glsl.
 enum class Fetch { texture, image, storage };
 
 // Of the current context. llvmpipe turns loads of storage into loops over the lanes of a SIMD register, and

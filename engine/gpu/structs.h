@@ -15,6 +15,6 @@ using glm::uvec4;
 using glm::vec4;
 using uint = std::uint32_t;
 
-#include "shaders/structs.glsl"
+#include "shaders/shared/structs.glsl"
 
 }  // namespace qtrace::gpu

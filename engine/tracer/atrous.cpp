@@ -70,7 +70,7 @@ AtrousFilter::AtrousFilter(const gpu::Context& context, const FirstHitImage& fir
       source_("filter source", first_hit.normal.size() * sizeof(gpu::vec4)),
       result_("filter result", first_hit.normal.size() * sizeof(gpu::vec4)),
       constants_("filter constants", sizeof(gpu::FilterPass)),
-      program_("atrous.comp", {}) {
+      program_("passes/atrous.comp", {}) {
   run_pass(0);
   context_.finish();
 }

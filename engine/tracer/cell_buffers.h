@@ -1,4 +1,4 @@
-// The cells of a scene on the device: what find_cell() of shaders/cells.glsl searches.
+// The cells of a scene on the device: what find_cell() of shaders/learning/cells.glsl searches.
 #pragma once
 
 #include "engine/cells/grid.h"

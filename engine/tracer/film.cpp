@@ -72,7 +72,7 @@ Film::Film(int width, int height, gpu::ProgramCache& programs)
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
           gpu::also_fetched(gpu::Texels::uint4)),
       statistics_("statistics", sizeof(gpu::Statistics)),
-      accumulate_(programs.get("accumulate.comp", {})) {}
+      accumulate_(programs.get("passes/accumulate.comp", {})) {}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);

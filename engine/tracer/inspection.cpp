@@ -1,7 +1,7 @@
 #include "engine/tracer/inspection.h"
 
 #include "engine/gpu/program.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/limits.h"
@@ -124,7 +124,7 @@ std::vector<int> Inspection::pixel_cells() const {
       static_cast<std::size_t>(s.settings.width) * static_cast<std::size_t>(s.settings.height);
   const gpu::Buffer output("cells of pixels", pixels * sizeof(int));
   s.bind(output);
-  const gpu::Program program("inspect_cells.comp", s.defines);
+  const gpu::Program program("passes/inspect_cells.comp", s.defines);
   program.dispatch(tiles(s.settings.width), tiles(s.settings.height));
   s.film.check_loops();
   return output.read_all<int>();
@@ -137,7 +137,7 @@ Hemisphere Inspection::hemisphere(glm::ivec2 pixel, int size, int samples,
   defines["PIXEL_X"] = std::to_string(pixel.x);
   defines["PIXEL_Y"] = std::to_string(pixel.y);
   defines["HEMISPHERE_SIZE"] = std::to_string(size);
-  gpu::Program program("incident.comp", defines);
+  gpu::Program program("passes/incident.comp", defines);
   const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const gpu::Buffer output("incident radiance", pixels * sizeof(gpu::Incident));
   s.bind(output);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/core/settings.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/scene/scene.h"
 #include "engine/tracer/cell_buffers.h"

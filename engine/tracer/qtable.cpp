@@ -42,9 +42,9 @@ QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t colum
                    gpu::also_fetched(gpu::Texels::float1)),
       touched_("touched cells", sizeof(gpu::TouchedHead) + cells_.count() * sizeof(std::uint32_t)),
       places_("places of cells", pack_places(cells_.states())),
-      initialize_(programs.get("initial_table.comp", defines)),
-      list_(programs.get("list_touched.comp", defines)),
-      learn_(programs.get("learn.comp", defines)) {}
+      initialize_(programs.get("passes/initial_table.comp", defines)),
+      list_(programs.get("passes/list_touched.comp", defines)),
+      learn_(programs.get("passes/learn.comp", defines)) {}
 
 void QTable::bind() const {
   cells_.bind();

@@ -41,7 +41,7 @@ class QTable {
   std::size_t columns() const { return columns_; }
 
   // For studies and tests of the table itself; entry = cell * columns + column, direction bins before lights
-  // (shaders/table.glsl). set_values() keeps the visits.
+  // (shaders/learning/table.glsl). set_values() keeps the visits.
   std::vector<float> values() const;
   std::vector<std::uint32_t> visits() const;
   void set_values(std::span<const float> values);

@@ -1,8 +1,8 @@
-// Settings and scene as compile-time choices of the shaders (shaders/variants.glsl).
+// Settings and scene as compile-time choices of the shaders (shaders/shared/variants.glsl).
 #pragma once
 
 #include "engine/core/settings.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/shader_source.h"
 #include "engine/tracer/cell_buffers.h"
 

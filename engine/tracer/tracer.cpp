@@ -1,7 +1,7 @@
 #include "engine/tracer/tracer.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/learning_schedule.h"
@@ -48,12 +48,12 @@ struct Tracer::State {
                     context.programs());
       defines = with_cells(defines, table->cells());
     }
-    trace = context.programs().get("trace.comp", joined(defines, more));
+    trace = context.programs().get("passes/trace.comp", joined(defines, more));
     if (trial.is_wanted()) {
       RenderSettings without = settings;
       without.sampler = Sampler::bsdf;
       trace_without =
-          context.programs().get("trace.comp", joined(shader_defines(without, buffers.features()), more));
+          context.programs().get("passes/trace.comp", joined(shader_defines(without, buffers.features()), more));
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
@@ -205,7 +205,7 @@ FirstHitImage Tracer::first_hit() const {
   s.bind();
   output.bind_storage(gpu::BINDING_OUTPUT);
   const auto program =
-      s.context.programs().get("first_hit.comp", shader_defines(s.settings, s.buffers.features()));
+      s.context.programs().get("passes/first_hit.comp", shader_defines(s.settings, s.buffers.features()));
   const auto [x, y] = s.groups();
   program->dispatch(x, y);
   s.context.finish();

@@ -1,11 +1,11 @@
 #include "tests/bench/design_bench.h"
 
 #include "engine/gpu/driver.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
-#include "experiments/atomic_file.h"
-#include "experiments/csv.h"
-#include "experiments/text_table.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/files/csv.h"
+#include "experiments/files/text_table.h"
 #include "tests/bench/embree.h"
 #include "tests/bench/ray_shader.h"
 #include "tests/bench/rounds.h"
@@ -23,7 +23,7 @@ constexpr int kBounces = 5;  // the report's
 // fits beside them. Each scattering event reads them and writes them once.
 constexpr std::size_t kStateBytes = 64;
 constexpr std::string_view kState = R"(#version 450 core
-#include "structs.glsl"
+#include "shared/structs.glsl"
 layout(local_size_x = 64) in;
 struct PathState { vec4 origin; vec4 direction; vec4 throughput; vec4 radiance; };
 layout(std430, binding = BINDING_OUTPUT) restrict buffer StateBuffer { PathState states[]; };

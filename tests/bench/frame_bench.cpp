@@ -1,10 +1,10 @@
 #include "tests/bench/frame_bench.h"
 
 #include "engine/core/check.h"
-#include "experiments/atomic_file.h"
-#include "experiments/csv.h"
-#include "experiments/scene_store.h"
-#include "experiments/text_table.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/files/csv.h"
+#include "experiments/runtime/scene_store.h"
+#include "experiments/files/text_table.h"
 #include "tests/bench/rounds.h"
 
 #include <algorithm>

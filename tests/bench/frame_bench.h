@@ -3,7 +3,7 @@
 
 #include "engine/gpu/context.h"
 #include "engine/tracer/tracer.h"
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/bench/timing.h"
 
 #include <filesystem>

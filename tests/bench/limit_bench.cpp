@@ -1,9 +1,9 @@
 #include "tests/bench/limit_bench.h"
 
-#include "engine/gpu/scene_buffers.h"
-#include "experiments/atomic_file.h"
-#include "experiments/csv.h"
-#include "experiments/text_table.h"
+#include "engine/device_scene/scene_buffers.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/files/csv.h"
+#include "experiments/files/text_table.h"
 #include "tests/bench/embree.h"
 #include "tests/bench/limit_shaders.h"
 #include "tests/bench/ray_shader.h"

@@ -20,7 +20,7 @@ constexpr std::size_t kCopied = std::size_t{128} << 20;  // beyond caches; llvmp
 
 // Results depend on everything, so that nothing is left out.
 constexpr std::string_view kArithmetic = R"(#version 450 core
-#include "structs.glsl"
+#include "shared/structs.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer OutputBuffer { float results[]; };
 void main() {
@@ -42,7 +42,7 @@ void main() {
 )";
 
 constexpr std::string_view kFetch = R"(#version 450 core
-#include "scene.glsl"
+#include "geometry/scene.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer OutputBuffer { uint results[]; };
 void main() {
@@ -61,7 +61,7 @@ void main() {
 )";
 
 constexpr std::string_view kCopy = R"(#version 450 core
-#include "structs.glsl"
+#include "shared/structs.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_SAMPLES) restrict readonly buffer InputBuffer { vec4 from[]; };
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer OutputBuffer { vec4 to[]; };

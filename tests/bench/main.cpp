@@ -1,7 +1,7 @@
 // Speed: ./dev bench.
 #include "engine/core/check.h"
-#include "experiments/atomic_file.h"
-#include "experiments/manifest.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/runtime/manifest.h"
 #include "tests/bench/design_bench.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"

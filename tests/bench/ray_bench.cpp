@@ -1,9 +1,9 @@
 #include "tests/bench/ray_bench.h"
 
-#include "engine/gpu/scene_buffers.h"
-#include "experiments/atomic_file.h"
-#include "experiments/csv.h"
-#include "experiments/text_table.h"
+#include "engine/device_scene/scene_buffers.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/files/csv.h"
+#include "experiments/files/text_table.h"
 #include "tests/bench/embree.h"
 #include "tests/bench/ray_shader.h"
 #include "tests/bench/rounds.h"
@@ -95,7 +95,7 @@ class SceneBench {
   }
 
  private:
-  // By the variant's define, as in shaders/variants.glsl.
+  // By the variant's define, as in shaders/shared/variants.glsl.
   static BvhKind bvh_of(const Variant& variant) {
     const auto kind = variant.defines.find("BVH");
     return kind != variant.defines.end() && kind->second == "1" ? BvhKind::threaded : BvhKind::sah;

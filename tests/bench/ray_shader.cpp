@@ -12,8 +12,8 @@ constexpr int kRayUnit = 14;  // beside those of structs.glsl
 
 // A negative t stands for a loop that was cut short.
 constexpr std::string_view kShader = R"(#version 450 core
-#include "traverse.glsl"
-#include "work_groups.glsl"
+#include "geometry/traverse.glsl"
+#include "shared/work_groups.glsl"
 layout(local_size_x = 64) in;
 FETCHED_VEC4(rays, 14);
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer AnswerBuffer { vec2 answers[]; };

@@ -26,7 +26,7 @@ class RayBuffers {
   gpu::Buffer answers_;
 };
 
-// closest_hit() or is_occluded() of shaders/traverse.glsl, with further defines.
+// closest_hit() or is_occluded() of shaders/geometry/traverse.glsl, with further defines.
 class RayShader {
  public:
   RayShader(bool occlusion, gpu::Defines defines);

@@ -1,6 +1,6 @@
 #include "tests/bench/rounds.h"
 
-#include "experiments/csv.h"
+#include "experiments/files/csv.h"
 
 #include <chrono>
 #include <cstdint>

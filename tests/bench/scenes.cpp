@@ -2,7 +2,7 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <glm/geometric.hpp>
 

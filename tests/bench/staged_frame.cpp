@@ -18,7 +18,7 @@ namespace {
 // Stand between two includes of trace.comp: behind the functions that they replace, before their use.
 // parameters.film.x is clamp_radiance, which is 0 here.
 constexpr std::string_view kCellTwice = R"(
-#include "cells.glsl"
+#include "learning/cells.glsl"
 Cell find_cell_twice(Surface s) {
   Cell first = find_cell(s);
   s.position += parameters.film.x;
@@ -29,7 +29,7 @@ Cell find_cell_twice(Surface s) {
 #define find_cell find_cell_twice
 )";
 constexpr std::string_view kDirectionTwice = R"(
-#include "direction.glsl"
+#include "sampling/direction.glsl"
 DirectionSample sample_direction_twice(Event e, uvec4 bits) {
   DirectionSample first = sample_direction(e, bits);
   bits += uint(parameters.film.x);
@@ -47,8 +47,8 @@ float direction_pdf_twice(Event e, vec3 wi) {
 #define direction_pdf direction_pdf_twice
 )";
 constexpr std::string_view kNoTargets = R"(
-#include "cells.glsl"
-#include "columns.glsl"
+#include "learning/cells.glsl"
+#include "learning/columns.glsl"
 #define gather_target(entry, target) false
 #define gather_light_target(entry, target) false
 )";
@@ -58,8 +58,8 @@ constexpr std::array<std::string_view, kTraceForms.size()> kChanges{"", kCellTwi
                                                                     kNoTargets};
 
 gpu::Program program_of(TraceForm form, const gpu::Defines& defines) {
-  constexpr std::string_view kBefore = "#include \"path.glsl\"\n";
-  std::string text(gpu::shader_file("trace.comp"));
+  constexpr std::string_view kBefore = "#include \"passes/path.glsl\"\n";
+  std::string text(gpu::shader_file("passes/trace.comp"));
   const std::size_t place = text.find(kBefore);
   check(place != std::string::npos, "trace.comp does not include path.glsl any more");
   text.insert(place, kChanges[static_cast<std::size_t>(form)]);

@@ -4,7 +4,7 @@
 
 #include "engine/core/image.h"
 #include "engine/gpu/context.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/qtable.h"
 #include "tests/bench/timing.h"

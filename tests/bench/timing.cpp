@@ -1,6 +1,6 @@
 #include "tests/bench/timing.h"
 
-#include "experiments/statistics.h"
+#include "experiments/measure/statistics.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Feeds bytes to the config reader: the text of a config and, after NUL bytes, values of --set.
 #include "engine/core/check.h"
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/fuzz/expect.h"
 #include "tests/fuzz/json_mutator.h"
 

@@ -1,7 +1,7 @@
 // Feeds bytes to the glTF loader: .glb where they begin as one, else .gltf.
 #include "engine/core/check.h"
-#include "engine/scene/gltf.h"
-#include "engine/scene/gltf_file.h"
+#include "engine/gltf/load_gltf.h"
+#include "engine/gltf/file.h"
 #include "tests/fuzz/expect.h"
 #include "tests/fuzz/json_mutator.h"
 

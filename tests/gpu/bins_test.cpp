@@ -7,7 +7,7 @@
 namespace qtrace::test {
 namespace {
 
-const std::vector<std::string> kIncludes{"variants.glsl", "scene.glsl", "random.glsl", "bins.glsl"};
+const std::vector<std::string> kIncludes{"shared/variants.glsl", "geometry/scene.glsl", "sampling/random.glsl", "learning/bins.glsl"};
 
 class Bins : public testing::TestWithParam<BinMap> {
  protected:

@@ -20,7 +20,7 @@ Words counted(std::size_t count, std::uint32_t first) {
 Words seen_by_shader(const gpu::Buffer& buffer) {
   buffer.bind_storage(gpu::BINDING_SAMPLES);
   return probe<std::uint32_t>(
-      "uint", {"structs.glsl"},
+      "uint", {"shared/structs.glsl"},
       "layout(std430, binding = BINDING_SAMPLES) readonly buffer InputBuffer { uint words[]; };",
       "result = words[index];", static_cast<std::uint32_t>(buffer.bytes() / sizeof(std::uint32_t)));
 }

@@ -1,6 +1,6 @@
 // However buffers are fetched, what is computed is the same: drivers choose one way, all must be right.
 #include "engine/gpu/fetch.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/render.h"
 #include "tests/support/report.h"
 

@@ -1,7 +1,7 @@
 // What the device finds in the grid of cells: the box that the hit lies in, and the axis of its normal.
 #include "engine/core/check.h"
-#include "engine/gpu/scene_buffers.h"
-#include "engine/scene/gltf.h"
+#include "engine/device_scene/scene_buffers.h"
+#include "engine/gltf/load_gltf.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
@@ -37,7 +37,7 @@ RenderSettings grid_settings(int resolution) {
 // vectors.
 std::vector<glm::vec4> hits(const gpu::Defines& defines, const std::string& vector) {
   return probe<glm::vec4>(
-      "vec4", {"variants.glsl", "cells.glsl", "camera.glsl"}, "",
+      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl"}, "",
       "uint pixel = index >> 1;\n"
       "vec3 d = camera_direction(vec2(pixel % parameters.image.x, pixel / parameters.image.x) + 0.5);\n"
       "Hit hit = closest_hit(parameters.camera_origin.xyz, d);\n"

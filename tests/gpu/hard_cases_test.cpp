@@ -35,7 +35,7 @@ LongSum sum_of_million(const std::string& sample) {
   gpu::Buffer plain("plain sum", 16);
   plain.bind_storage(gpu::BINDING_OUTLIERS);
   const std::string text =
-      "#version 450 core\n#include \"structs.glsl\"\n#include \"pixel_sum.glsl\"\n"
+      "#version 450 core\n#include \"shared/structs.glsl\"\n#include \"passes/pixel_sum.glsl\"\n"
       "layout(local_size_x = 1) in;\n"
       "layout(location = LOCATION_FRAME) uniform uint frame_number;\n"
       "layout(std430, binding = BINDING_SUMS) buffer SumBuffer { PixelSum sums[]; };\n"
@@ -94,7 +94,7 @@ TEST_F(HardCases, VisitCountersAtTheirLimitDoNotWrap) {
   const float before = [&] {
     teach("3u", "5.0", 64);
     table_->bind();
-    probe<glm::uvec4>("uvec4", {"structs.glsl"},
+    probe<glm::uvec4>("uvec4", {"shared/structs.glsl"},
                       "layout(std430, binding = BINDING_Q_VISITS) buffer Visits { uint visits[]; };\n",
                       "visits[3] = 0xffffffffu; result = uvec4(0u);", 1);
     return table_->values()[3];
@@ -159,9 +159,9 @@ TEST_F(HardCases, TargetsBeyondTheFixedPointAreCounted) {
   constexpr std::uint32_t kTargets = 1 << 17;
   table_->bind();
   const auto clamped =
-      probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+      probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                         "result = uvec4(gather_target(0u, 1e30) ? 1u : 0u);", kTargets, defines_);
-  probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+  probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                     "gather_target(1u, 0.875 * TARGET_LIMIT * TARGET_UNIT); result = uvec4(0u);", kTargets,
                     defines_);
   statistics_.bind_storage(gpu::BINDING_STATISTICS);

@@ -120,7 +120,7 @@ std::string block_member(const std::string& name) {
 Program program_with(const std::string& name) {
   const std::string member = block_member(name);
   const bool block = !member.empty();
-  const std::string body = "#version 450 core\n#include \"structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
+  const std::string body = "#version 450 core\n#include \"shared/structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
                            std::string(block ? "layout(std140, binding = 0) uniform B { "
                                              : "layout(std430, binding = 0) buffer B { ") +
                            name + " items" + (block ? "" : "[]") + "; };\n" +

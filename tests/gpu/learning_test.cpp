@@ -1,5 +1,5 @@
 // The Q-table's arithmetic: gathering in fixed point, the update, and that thread order leaves no trace.
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
 #include "tests/support/report.h"
@@ -46,7 +46,7 @@ TEST_F(Learning, BinsAreDrawnInProportionToTheirValues) {
   std::copy(taught.begin(), taught.end(), values.begin() + 2 * bins);
   table_->set_values(values);
   const auto drawn =
-      probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+      probe<glm::vec4>("vec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                        "result = vec4(column_probability(first_bin(index / 4u), 4u, index % 4u));",
                        static_cast<std::uint32_t>(values.size()), defines_);
   const double floor = settings_.rl.bin_floor;
@@ -69,7 +69,7 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   render(tracer, 64);
   const std::vector<float> values = tracer.table()->values();
   const auto found = probe<glm::uvec4>(
-      "uvec4", {"variants.glsl", "qtable.glsl", "camera.glsl"}, "",
+      "uvec4", {"shared/variants.glsl", "learning/qtable.glsl", "geometry/camera.glsl"}, "",
       kViewedSurface +
           "Cell cell = find_cell(s);\n"
           "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
@@ -96,7 +96,7 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
     settings_.rl.site_search = search;
     gpu::Defines defines = shader_defines(settings_, buffers_->features());
     defines["SEARCHES"] = searches;
-    const std::vector<std::string> files{"variants.glsl", "qtable.glsl", "camera.glsl"};
+    const std::vector<std::string> files{"shared/variants.glsl", "learning/qtable.glsl", "geometry/camera.glsl"};
     return probe<glm::uvec4>("uvec4", files, "", body, 8, defines)[0].y == 1;
   };
   EXPECT_FALSE(is_cut(SiteSearch::linear, "1"));

@@ -1,6 +1,6 @@
 // Lights: what belongs together, how each rule chooses, and what a choice teaches.
-#include "engine/gpu/alias_table.h"
-#include "engine/gpu/light_table.h"
+#include "engine/device_scene/alias_table.h"
+#include "engine/device_scene/light_table.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
 #include "tests/support/report.h"
@@ -82,7 +82,7 @@ class LightChoices : public LearningStage {
   void expect_stated(const std::vector<double>& stated) {
     constexpr std::uint32_t kDraws = 1 << 18;
     const auto drawn = probe<glm::vec4>(
-        "vec4", {"variants.glsl", "nee.glsl", "camera.glsl"}, "",
+        "vec4", {"shared/variants.glsl", "light/nee.glsl", "geometry/camera.glsl"}, "",
         kViewedSurface +
             "int cell = find_cell(s).index;\n"
             "uvec4 bits = random_bits(RandomKey(index, 1u, 9u), 2u);\n"
@@ -162,7 +162,7 @@ TEST_F(LightChoices, ThousandsOfLightsFillTheRangeOnce) {
   build();
   ASSERT_EQ(table_->columns(), kMore + 1);
   const gpu::LightTable lights = gpu::build_light_table(scene_, LightChoice::power);
-  const auto found = probe<glm::vec4>("vec4", {"variants.glsl", "nee.glsl"}, "",
+  const auto found = probe<glm::vec4>("vec4", {"shared/variants.glsl", "light/nee.glsl"}, "",
                                       "result = vec4(light_probability(0, index));", kMore + 1, defines_);
   double sum = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {

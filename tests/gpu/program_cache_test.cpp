@@ -58,13 +58,13 @@ TEST(ProgramCache, TracersThatShareProgramsRenderTheirOwnFrames) {
 TEST(ProgramCache, ForgetsProgramsThatNobodyUses) {
   gpu::ProgramCache cache;
   device();
-  const auto kept = cache.get("accumulate.comp", {});
-  for (int i = 0; i < 70; ++i) cache.get("accumulate.comp", {{"VARIANT", std::to_string(i)}});
+  const auto kept = cache.get("passes/accumulate.comp", {});
+  for (int i = 0; i < 70; ++i) cache.get("passes/accumulate.comp", {{"VARIANT", std::to_string(i)}});
   const std::size_t compiled = cache.compiled();
   EXPECT_EQ(compiled, 71U);
-  EXPECT_EQ(cache.get("accumulate.comp", {}), kept);
+  EXPECT_EQ(cache.get("passes/accumulate.comp", {}), kept);
   EXPECT_EQ(cache.compiled(), compiled);
-  cache.get("accumulate.comp", {{"VARIANT", "0"}});
+  cache.get("passes/accumulate.comp", {{"VARIANT", "0"}});
   EXPECT_EQ(cache.compiled(), compiled + 1);
 }
 

@@ -19,7 +19,7 @@ std::string message_of(const std::string& text) {
 
 TEST(Program, ErrorNamesFileAndLine) {
   test::device();
-  const std::string head = "#version 450 core\n#include \"random.glsl\"\nlayout(local_size_x = 1) in;\n";
+  const std::string head = "#version 450 core\n#include \"sampling/random.glsl\"\nlayout(local_size_x = 1) in;\n";
   const std::string message = message_of(head + "void main() {\n  undeclared = 1;\n}\n");
   EXPECT_NE(message.find("broken.comp:5"), std::string::npos) << message;
   EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
@@ -29,7 +29,7 @@ TEST(Program, ErrorInsideAnIncludeNamesTheInclude) {
   test::device();
   // bins.glsl needs the numbers of bins as defines.
   const std::string message =
-      message_of("#version 450 core\n#include \"bins.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+      message_of("#version 450 core\n#include \"learning/bins.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
   EXPECT_NE(message.find("bins.glsl:4"), std::string::npos) << message;
 }
 
@@ -39,7 +39,7 @@ TEST(Program, UnknownIncludeIsNamed) {
 }
 
 TEST(Program, LogsOfBothDriversAreRead) {
-  const ShaderSource source{"", {"trace.comp", "bsdf.glsl"}};
+  const ShaderSource source{"", {"passes/trace.comp", "material/bsdf.glsl"}};
   EXPECT_EQ(readable_log("0:100012(5): error: a", source), "bsdf.glsl:12: error: a\n");
   EXPECT_EQ(readable_log("0(7) : error C1: b", source), "trace.comp:7: error C1: b\n");
 }

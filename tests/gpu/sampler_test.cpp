@@ -1,5 +1,5 @@
 // Chi-squared: every direction sampler draws in proportion to the density that it states, on the device.
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
@@ -39,7 +39,7 @@ Event the_event() {
   return e;
 }
 )";
-const std::vector<std::string> kIncludes{"variants.glsl", "random.glsl", "direction.glsl", "camera.glsl"};
+const std::vector<std::string> kIncludes{"shared/variants.glsl", "sampling/random.glsl", "sampling/direction.glsl", "geometry/camera.glsl"};
 
 struct Case {
   std::string name;
@@ -224,7 +224,7 @@ TEST(Samplers, RandomNumbersAreUniformAndUncorrelated) {
       "uvec2(random_bits(RandomKey(index, 1u, 9u), 1u).w, random_bits(RandomKey(index, 1u, 10u), 1u).w)"};
   for (const std::string& pair : neighbours) {
     SCOPED_TRACE(pair);
-    const auto words = probe<glm::uvec4>("uvec4", {"structs.glsl", "random.glsl"}, "",
+    const auto words = probe<glm::uvec4>("uvec4", {"shared/structs.glsl", "sampling/random.glsl"}, "",
                                          "result = uvec4(" + pair + ", 0u, 0u);", kSamples);
     constexpr std::size_t kSide = 64;
     std::vector<double> counts(kSide * kSide);

@@ -22,7 +22,7 @@ class Shaping : public LearningStage {
   std::vector<double> probabilities() const {
     std::vector<double> result;
     for (const glm::vec4& v :
-         probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+         probe<glm::vec4>("vec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                           "result = vec4(column_probability(first_bin(0u), uint(BINS), index));",
                           static_cast<std::uint32_t>(bins_), defines_)) {
       result.push_back(v.x);
@@ -31,7 +31,7 @@ class Shaping : public LearningStage {
   }
 
   double share() const {
-    return probe<glm::vec4>("vec4", {"variants.glsl", "qtable.glsl"}, "",
+    return probe<glm::vec4>("vec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                             "result = vec4(fetch_one(bsdf_shares, 0));", 1, defines_)[0]
         .x;
   }
@@ -39,7 +39,7 @@ class Shaping : public LearningStage {
   // So many targets of one size for a column of the first cell, in units of the brightest light squared.
   void teach_share(const std::string& side, float square, std::uint32_t count) {
     table_->bind();
-    probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+    probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                       "result = uvec4(gather_light_target(first_share(0u) + " + side + ", " +
                           std::to_string(square) + ") ? 1u : 0u);",
                       count, defines_);

@@ -2,7 +2,7 @@
 // index.
 #include "engine/core/check.h"
 #include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/shader_variant.h"
@@ -98,7 +98,7 @@ std::vector<glm::uvec4> search(const std::vector<Query>& queries, SiteSearch how
   gpu::Defines defines = shader_defines(settings, {});
   defines.insert(more.begin(), more.end());
   return probe<glm::uvec4>(
-      "uvec4", {"variants.glsl", "cells.glsl"},
+      "uvec4", {"shared/variants.glsl", "learning/cells.glsl"},
       "struct Query { vec4 position; vec4 normal; };\n"
       "layout(std430, binding = BINDING_SAMPLES) readonly buffer QueryBuffer { Query queries[]; };",
       "Surface s;\n"

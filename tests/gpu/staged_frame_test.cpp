@@ -2,7 +2,7 @@
 #include "tests/bench/staged_frame.h"
 #include "tests/support/device.h"
 
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <gtest/gtest.h>
 

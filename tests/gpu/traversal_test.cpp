@@ -1,9 +1,9 @@
 // The GPU's traversal against the CPU's in double precision, and against the driver's loop budget.
 #include "engine/accel/traverse.h"
 #include "engine/core/check.h"
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/probe.h"
 #include "tests/support/ray_queries.h"
 #include "tests/support/render.h"
@@ -27,7 +27,7 @@ void expect_same_hits(const Scene& scene, const Walk& walk, float more = 0) {
   const gpu::Buffer input("rays", std::span<const RayPair>(rays));
   input.bind_storage(gpu::BINDING_SAMPLES);
   const auto hits = probe<glm::uvec4>(
-      "uvec4", {"traverse.glsl"}, kRayBuffer,
+      "uvec4", {"geometry/traverse.glsl"}, kRayBuffer,
       "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
       "bool occluded = is_occluded(rays[index].origin.xyz, rays[index].direction.xyz * hit.t * 0.999);\n"
       "bool found = is_occluded(rays[index].origin.xyz, rays[index].direction.xyz * min(hit.t, 1e4) * "

@@ -1,6 +1,6 @@
 // The grid of 16-bit boxes: every box encloses its node's, in the arithmetic that the shader uses.
-#include "engine/gpu/wide_nodes.h"
-#include "engine/scene/gltf.h"
+#include "engine/device_scene/wide_nodes.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ namespace {
 std::vector<std::uint32_t> dealt(std::uint32_t groups, int threads, int piece_bits) {
   device();
   const auto seen = probe<std::uint32_t>(
-      "uint", {"structs.glsl", "work_groups.glsl"}, "", "result = dealt_group();", 64 * groups,
+      "uint", {"shared/structs.glsl", "shared/work_groups.glsl"}, "", "result = dealt_group();", 64 * groups,
       {{"WORK_THREADS", std::to_string(threads)}, {"WORK_PIECE_BITS", std::to_string(piece_bits)}});
   std::vector<std::uint32_t> parts(groups);
   for (std::size_t i = 0; i < groups; ++i) parts[i] = seen[64 * i];

@@ -1,6 +1,6 @@
 #include "tests/independent/comparison.h"
 
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/render/comparison.h"
 
 #include <cmath>

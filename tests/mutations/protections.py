@@ -15,7 +15,7 @@ class Protection:
     is_test: bool = False
 
 
-SURFACE, INTERSECT, NEE = "shaders/surface.glsl", "shaders/intersect.glsl", "shaders/nee.glsl"
+SURFACE, INTERSECT, NEE = "shaders/geometry/surface.glsl", "shaders/geometry/intersect.glsl", "shaders/light/nee.glsl"
 ORIGIN = "return s.position + s.offset * (side * s.geometric_normal + s.inwards);"
 OFFSET = "s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));"
 INSIDE = "bool inside = all(greaterThanEqual(weights, vec3(0.0))) || all(lessThanEqual(weights, vec3(0.0)));"
@@ -33,52 +33,52 @@ PROTECTIONS = [
     Protection("rays leave surfaces off them and off their edges", ("white furnace", "camera in geometry"),
                (Edit(SURFACE, ORIGIN, "return s.position;"),)),
     Protection("scenes far from the origin are moved there", ("white furnace, moved", "room, moved 10,000"), (Edit(
-        "engine/scene/gltf_origin.cpp", "constexpr double kFar = 64;", "constexpr double kFar = 1e30;"),)),
+        "engine/gltf/origin.cpp", "constexpr double kFar = 64;", "constexpr double kFar = 1e30;"),)),
     Protection("the power heuristic by a ratio, not by squares", ("grazing light",), (
         Edit(NEE, "return 1.0 / (1.0 + ratio * ratio);", "return pdf * pdf / (pdf * pdf + other * other);"),
         Edit(NEE, "  if (contribution == vec3(0.0)) return contribution;\n", ""))),
     Protection("triangles are too flat by their shape, not by a size", ("tiny bright light",), (Edit(
-        "engine/scene/gltf_triangle.cpp", HAS_AREA,
+        "engine/gltf/triangle.cpp", HAS_AREA,
         "return kMinRelativeHeight > 0 && twice_area > 1e-4;"),)),
     Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001",),
                (Edit(SURFACE, OFFSET, "s.offset = 1e-3;"),)),
     Protection("no length is too far", ("room, scaled 10,000",), (Edit(
-        "shaders/traverse.glsl", "Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));", "Hit hit = Hit(1e4, NO_TRIANGLE, vec2(0.0));"),)),
+        "shaders/geometry/traverse.glsl", "Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));", "Hit hit = Hit(1e4, NO_TRIANGLE, vec2(0.0));"),)),
     Protection("a light's triangles are chosen by their area", ("slivers",), (Edit(
-        "shaders/lights.glsl", "return fraction <= link.z ? triangle : link.x;", "return triangle;"),)),
+        "shaders/light/lights.glsl", "return fraction <= link.z ? triangle : link.x;", "return triangle;"),)),
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
-        "engine/scene/gltf.cpp", "  drop_duplicates(source, scene);\n", ""),)),
+        "engine/gltf/load_gltf.cpp", "  drop_duplicates(source, scene);\n", ""),)),
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
-        "engine/scene/gltf_triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
+        "engine/gltf/triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
-               (Edit("shaders/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
+               (Edit("shaders/passes/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
     Protection("visit counters stop at their limit", ("VisitCountersAtTheirLimitDoNotWrap",), (Edit(
-        "shaders/learn.comp",
+        "shaders/passes/learn.comp",
         "q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);",
         "q_visits[entry] = q_visits[entry] + targets;"),), True),
     Protection("targets are clamped", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
-        "shaders/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
+        "shaders/learning/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
     Protection("full sums stay full", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
-        "shaders/gathered.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
+        "shaders/learning/gathered.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
     Protection("bins have a floor, and none vanishes", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",), (Edit(
-        "shaders/learn.comp", "uint floor_width = uint(floor_share * (FLOOR_RANGE / float(BINS)));",
+        "shaders/passes/learn.comp", "uint floor_width = uint(floor_share * (FLOOR_RANGE / float(BINS)));",
         "uint floor_width = 0u;"),), True),
     Protection("counts run over into the next word", ("AMillionUpdatesOfOneEntryAreTheirMean",), (Edit(
-        "shaders/columns.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
+        "shaders/learning/columns.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
     Protection("emission met after a light sample is weighted", ("room",), (Edit(
         NEE, "return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));",
         "return 1.0;"),)),
     Protection("specular directions have the density that they are drawn with",
                ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
-        "shaders/bsdf.glsl", "ggx_distribution(s.normal, h, b.alpha) * 0.25;", "ggx_distribution(s.normal, h, b.alpha) * 0.2;"),)),
+        "shaders/material/bsdf.glsl", "ggx_distribution(s.normal, h, b.alpha) * 0.25;", "ggx_distribution(s.normal, h, b.alpha) * 0.2;"),)),
     Protection("what does not emit is black", ("no light",), (Edit(
         SURFACE, "return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
     Protection("the environment is met after every event", ("environment alone",), (Edit(
-        "shaders/path.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
+        "shaders/passes/path.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
     Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
-        "engine/gpu/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",
+        "engine/device_scene/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",
         "uvec4(0), uvec4(0, 0, link(0), link(0))"),)),
     Protection("links have room for millions of triangles", ("five million triangles",), (Edit(
-        "shaders/wide_nodes.glsl", "return (leaf & ~LEAF_LINK) >> LEAF_BITS;",
+        "shaders/geometry/wide_nodes.glsl", "return (leaf & ~LEAF_LINK) >> LEAF_BITS;",
         "return ((leaf & ~LEAF_LINK) >> LEAF_BITS) & 0x3fffffu;"),)),
 ]

@@ -1,7 +1,7 @@
 #include "tests/render/comparison.h"
 
 #include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/report.h"
 #include "tests/support/statistics.h"
 

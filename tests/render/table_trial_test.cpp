@@ -1,7 +1,7 @@
 // Where the table is given up, and where it is not.
 #include "tests/support/render.h"
 
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 // groups of five seeds, grouped anew five times. The share of 200 good intervals has a standard error of 1.5
 // %. Once with errors that are normally distributed, once with those of a learned table, whose tails are
 // heavy.
-#include "experiments/metrics.h"
-#include "experiments/ratios.h"
+#include "experiments/measure/metrics.h"
+#include "experiments/records/ratios.h"
 
 #include "engine/scene/analytic.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/render.h"
 
 #include <gtest/gtest.h>

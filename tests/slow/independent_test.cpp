@@ -1,6 +1,6 @@
 // Every shipped scene, sampler and kind of next event estimation beside the independent tracer. Prints the
 // rows of a table that tests/independent/run.py keeps, and on the error stream how far it is.
-#include "experiments/manifest.h"
+#include "experiments/runtime/manifest.h"
 #include "tests/independent/comparison.h"
 #include "tests/support/device.h"
 

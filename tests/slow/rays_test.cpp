@@ -2,8 +2,8 @@
 // closed surfaces, which no ray may leave.
 #include "engine/accel/traverse.h"
 #include "engine/gpu/driver.h"
-#include "engine/gpu/scene_buffers.h"
-#include "engine/scene/gltf.h"
+#include "engine/device_scene/scene_buffers.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/bumpy_ball.h"
 #include "tests/support/probe.h"
 #include "tests/support/ray_queries.h"
@@ -72,7 +72,7 @@ void compare_with_oracle(const std::string& name, const Walk& walk) {
     const gpu::Buffer input("rays", std::span<const RayPair>(rays));
     input.bind_storage(gpu::BINDING_SAMPLES);
     const auto hits =
-        probe<glm::uvec4>("uvec4", {"traverse.glsl"}, kRayBuffer,
+        probe<glm::uvec4>("uvec4", {"geometry/traverse.glsl"}, kRayBuffer,
                           "Hit hit = closest_hit(rays[index].origin.xyz, rays[index].direction.xyz);\n"
                           "result = uvec4(hit.triangle, floatBitsToUint(hit.t), loop_was_cut ? 1u : 0u, 0u);",
                           kBatch, walk.defines);
@@ -121,8 +121,8 @@ std::uint64_t leaks_of(glm::vec3 middle, const Walk& walk) {
       scene.triangles.size(), middle.x, middle.y, middle.z);
   gpu::Program program(
       gpu::assemble("leaks",
-                    "#version 450 core\n#include \"traverse.glsl\"\n#include "
-                    "\"random.glsl\"\nlayout(local_size_x = 64) in;\n"
+                    "#version 450 core\n#include \"geometry/traverse.glsl\"\n#include "
+                    "\"sampling/random.glsl\"\nlayout(local_size_x = 64) in;\n"
                     "layout(std430, binding = BINDING_OUTPUT) buffer Results { uint results[]; };\n"
                     "void main() { uint index = gl_GlobalInvocationID.x;\n" +
                         body + "}\n",

@@ -1,7 +1,7 @@
 // A small table over a lit floor, taught by hand.
 #pragma once
 
-#include "engine/gpu/scene_buffers.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
@@ -49,7 +49,7 @@ class LearningStage : public testing::Test {
   // `count` threads each give the target `expression` to entry `entry`; then the frame's update.
   void teach(const std::string& entry, const std::string& expression, std::uint32_t count) {
     table_->bind();
-    probe<glm::uvec4>("uvec4", {"variants.glsl", "qtable.glsl"}, "",
+    probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                       "result = uvec4(gather_target(" + entry + ", " + expression + ") ? 1u : 0u);", count,
                       defines_);
     statistics_.bind_storage(gpu::BINDING_STATISTICS);
@@ -61,7 +61,7 @@ class LearningStage : public testing::Test {
   std::vector<float> next_values_in_view(std::uint32_t count = 1) const {
     std::vector<float> values;
     for (const glm::vec4& v : probe<glm::vec4>(
-             "vec4", {"variants.glsl", "qtable.glsl", "camera.glsl", "random.glsl"}, "",
+             "vec4", {"shared/variants.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "sampling/random.glsl"}, "",
              kViewedSurface +
                  "vec3 rotation = random_units(RandomKey(index, 1u, 5u), 1u).xyz;\n"
                  "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s), vec3(0.5), rotation));",

@@ -1,4 +1,4 @@
-// Rays for tests of the queries of shaders/traverse.glsl.
+// Rays for tests of the queries of shaders/geometry/traverse.glsl.
 #pragma once
 
 #include "engine/accel/bvh.h"

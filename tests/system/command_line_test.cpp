@@ -1,5 +1,5 @@
 // The program's face: help, usage errors, lists; and bad input, refused before anything is written.
-#include "experiments/exr.h"
+#include "experiments/images/exr.h"
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 

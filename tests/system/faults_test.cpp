@@ -3,8 +3,8 @@
 #include "tests/support/device.h"
 #include "tests/system/run_program.h"
 
-#include "experiments/reference_store.h"
-#include "experiments/run.h"
+#include "experiments/reference/reference_store.h"
+#include "experiments/run/run.h"
 
 #include <filesystem>
 

@@ -2,8 +2,8 @@
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 
-#include "experiments/npy.h"
-#include "experiments/saved_table.h"
+#include "experiments/files/npy.h"
+#include "experiments/run/saved_table.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Which cells a baseline is compared with, and by how much.
-#include "experiments/ratios.h"
-#include "experiments/table.h"
+#include "experiments/records/ratios.h"
+#include "experiments/records/table.h"
 
 #include <gtest/gtest.h>
 

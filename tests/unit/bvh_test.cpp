@@ -1,7 +1,7 @@
 #include "engine/accel/bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/core/check.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What `qtrace compare` compares: which pixels of which layer, and where its heat map goes.
-#include "experiments/compare.h"
+#include "experiments/commands/compare.h"
 #include "engine/core/check.h"
-#include "experiments/exr.h"
+#include "experiments/images/exr.h"
 #include "tests/support/exr_files.h"
 #include "tests/system/temp_folder.h"
 

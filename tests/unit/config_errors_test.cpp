@@ -1,7 +1,7 @@
 // How every wrong config is refused.
 #include "engine/core/check.h"
 #include "engine/core/text.h"
-#include "experiments/scene_store.h"
+#include "experiments/runtime/scene_store.h"
 #include "tests/unit/config_text.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Configs as texts, for tests.
 #pragma once
 
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/system/temp_folder.h"
 
 #include <string>

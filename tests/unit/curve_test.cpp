@@ -1,5 +1,5 @@
 // Slopes and times to an error, from curves with known answers.
-#include "experiments/ratios.h"
+#include "experiments/records/ratios.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Bias and variance of images with known ones.
-#include "experiments/error_parts.h"
+#include "experiments/measure/error_parts.h"
 
 #include <gtest/gtest.h>
 

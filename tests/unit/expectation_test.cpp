@@ -1,5 +1,5 @@
 // Verdicts over images that are made up.
-#include "experiments/expectation.h"
+#include "experiments/measure/expectation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // OpenEXR files as other programs name their channels: which are read, and which are refused with what words.
-#include "experiments/exr_picture.h"
+#include "experiments/images/exr_picture.h"
 #include "engine/core/check.h"
 #include "tests/support/exr_files.h"
 #include "tests/system/temp_folder.h"

@@ -1,6 +1,6 @@
-#include "experiments/file_queue.h"
+#include "experiments/files/file_queue.h"
 
-#include "experiments/atomic_file.h"
+#include "experiments/files/atomic_file.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What is a firefly beside a reference, and what a run says of its own.
-#include "experiments/fireflies.h"
+#include "experiments/records/fireflies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // FLIP on images so small that its value can be worked out by hand. tests/analysis/test_metrics.py compares
 // larger ones with an implementation of its own.
-#include "experiments/flip.h"
+#include "experiments/measure/flip.h"
 #include "engine/core/check.h"
-#include "experiments/ldr_flip.h"
+#include "experiments/measure/ldr_flip.h"
 
 #include <gtest/gtest.h>
 

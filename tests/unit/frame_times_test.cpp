@@ -1,5 +1,5 @@
 // Warm-up and noise, in series that are made up.
-#include "experiments/frame_times.h"
+#include "experiments/records/frame_times.h"
 
 #include <gtest/gtest.h>
 

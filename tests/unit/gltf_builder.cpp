@@ -1,7 +1,7 @@
 #include "tests/unit/gltf_builder.h"
 
 #include "engine/core/check.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // Small files that ask for much. Found by fuzzing, or looked for because of what it found.
 #include "engine/core/check.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/unit/gltf_builder.h"
 
 #include <chrono>

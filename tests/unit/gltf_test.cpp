@@ -1,5 +1,5 @@
 // What a readable file becomes: container formats, meshes, objects.
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/unit/gltf_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // Heat maps: which error has which colour, and files that read back.
-#include "experiments/heat_map.h"
+#include "experiments/measure/heat_map.h"
 #include "engine/core/check.h"
-#include "experiments/exr.h"
+#include "experiments/images/exr.h"
 #include "tests/system/temp_folder.h"
 
 #include <png.h>

@@ -1,9 +1,10 @@
 // Hashes and the parts of manifests.
-#include "experiments/manifest.h"
-#include "experiments/experiment.h"
-#include "experiments/hash.h"
-#include "experiments/progress.h"
-#include "experiments/run.h"
+#include "experiments/runtime/manifest.h"
+#include "experiments/study/experiment.h"
+#include "experiments/config/config_hash.h"
+#include "experiments/runtime/scene_hash.h"
+#include "experiments/runtime/progress.h"
+#include "experiments/run/run.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Metrics on tiny images, against values worked out by hand.
-#include "experiments/metrics.h"
+#include "experiments/measure/metrics.h"
 #include "engine/core/check.h"
 #include "tests/support/statistics.h"
 

@@ -1,5 +1,5 @@
 // NumPy files: there and back, what NumPy itself would write, and broken ones.
-#include "experiments/npy.h"
+#include "experiments/files/npy.h"
 
 #include "engine/core/check.h"
 #include "tests/system/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "experiments/plan.h"
+#include "experiments/study/plan.h"
 
 #include "engine/core/check.h"
 

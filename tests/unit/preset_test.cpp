@@ -1,6 +1,6 @@
 // Presets: a config over the settings of another file.
 #include "engine/core/check.h"
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

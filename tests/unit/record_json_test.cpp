@@ -1,4 +1,4 @@
-#include "experiments/record_json.h"
+#include "experiments/records/record_json.h"
 
 #include "engine/core/check.h"
 

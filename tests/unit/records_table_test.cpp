@@ -1,6 +1,6 @@
 // table.md from records that are made up.
-#include "experiments/table.h"
-#include "experiments/text_table.h"
+#include "experiments/records/table.h"
+#include "experiments/files/text_table.h"
 
 #include <gtest/gtest.h>
 

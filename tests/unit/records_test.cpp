@@ -1,6 +1,6 @@
 // CSV after RFC 4180, and the columns.
-#include "experiments/records.h"
-#include "experiments/cells.h"
+#include "experiments/records/records.h"
+#include "experiments/records/cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "engine/accel/reinsertion.h"
 #include "engine/accel/bvh_tree.h"
 #include "engine/accel/traverse.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // Sites in tree order: what the search on the device takes for granted.
 #include "engine/cells/site_tree.h"
-#include "engine/scene/gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/support/report.h"
 
 #include <gtest/gtest.h>

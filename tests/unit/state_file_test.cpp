@@ -1,5 +1,5 @@
 // States of tracers on disk: read back exactly, and refused where they are not whole.
-#include "experiments/state_file.h"
+#include "experiments/files/state_file.h"
 #include "engine/core/check.h"
 #include "tests/system/temp_folder.h"
 

@@ -1,6 +1,6 @@
 // Axes, their product, and ids that stay what they are.
 #include "engine/core/check.h"
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

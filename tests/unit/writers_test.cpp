@@ -1,8 +1,8 @@
 // Files: EXR there and back, broken ones, and writing whole or not at all.
 #include "engine/core/check.h"
-#include "experiments/atomic_file.h"
-#include "experiments/compare.h"
-#include "experiments/exr.h"
+#include "experiments/files/atomic_file.h"
+#include "experiments/commands/compare.h"
+#include "experiments/images/exr.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,124 @@
+#include "engine/device_scene/light_table.h"
+
+#include "engine/device_scene/alias_table.h"
+#include "engine/device_scene/light_groups.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace qtrace::gpu {
+namespace {
+
+double mean_radiance(const qtrace::Material& material) {
+  return (double{material.emission.r} + material.emission.g + material.emission.b) / 3.0;
+}
+
+double power_of(const Scene& scene, std::uint32_t triangle) {
+  const Triangle& t = scene.triangles[triangle];
+  const qtrace::Material& material = scene.materials[t.material];
+  return mean_radiance(material) * area_of(t) * (material.double_sided ? 2 : 1);
+}
+
+std::vector<std::uint32_t> find_emitters(const Scene& scene) {
+  std::vector<std::uint32_t> emitters;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    if (power_of(scene, i) > 0) emitters.push_back(i);
+  }
+  return emitters;
+}
+
+// `probability`: of the triangle within its light.
+LightTriangle make_triangle(const Scene& scene, std::uint32_t index, double probability) {
+  const Triangle& t = scene.triangles[index];
+  const qtrace::Material& material = scene.materials[t.material];
+  LightTriangle triangle{};
+  triangle.vertex = vec4(t.position[0], 0);
+  triangle.edge1 = vec4(t.position[1] - t.position[0], ray_offset(t));
+  triangle.edge2 = vec4(t.position[2] - t.position[0], static_cast<float>(probability / area_of(t)));
+  triangle.normal = vec4(glm::vec3(glm::normalize(area_vector(t.position))), 0);
+  triangle.radiance = vec4(material.emission, material.double_sided ? 1.0F : 0.0F);
+  return triangle;
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+// Where a light is and faces; its radiance is not yet in units of the brightest.
+Light make_light(const Scene& scene, const std::vector<std::uint32_t>& triangles, double power) {
+  glm::dvec3 centre(0);
+  glm::dvec3 axis(0);
+  double area = 0;
+  bool both = false;
+  for (const std::uint32_t i : triangles) {
+    const Triangle& t = scene.triangles[i];
+    const double part = area_of(t);
+    centre += part / 3 * (glm::dvec3(t.position[0]) + glm::dvec3(t.position[1]) + glm::dvec3(t.position[2]));
+    axis += part * glm::normalize(area_vector(t.position));
+    area += part;
+    both = both || scene.materials[t.material].double_sided;
+  }
+  Light light{};
+  light.centre = vec4(glm::vec3(centre / area), static_cast<float>(area));
+  // What shines to all sides has no axis.
+  light.axis = vec4(both ? glm::vec3(0) : glm::vec3(axis / area), static_cast<float>(power / area));
+  return light;
+}
+
+// Appends a light of these triangles; its own choice is left open. Returns its power.
+double add_light(LightTable& table, const Scene& scene, const std::vector<std::uint32_t>& triangles) {
+  std::vector<double> powers;
+  for (const std::uint32_t i : triangles) powers.push_back(power_of(scene, i));
+  const double power = sum_of(powers);
+  const auto first = static_cast<uint>(table.triangles.size());
+  const std::vector<AliasSlot> slots = build_aliases(powers);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    LightTriangle triangle = make_triangle(scene, triangles[i], powers[i] / power);
+    triangle.link =
+        uvec4(first + slots[i].alias, static_cast<uint>(table.lights.size()), slots[i].threshold, 0);
+    table.triangle_of[triangles[i]] = static_cast<uint>(table.triangles.size());
+    table.triangles.push_back(triangle);
+    const auto radiance = mean_radiance(scene.materials[scene.triangles[triangles[i]].material]);
+    table.brightest = std::max(table.brightest, static_cast<float>(radiance));
+  }
+  Light light = make_light(scene, triangles, power);
+  light.link = uvec4(0, first, 0, static_cast<uint>(triangles.size()));
+  table.lights.push_back(light);
+  return power;
+}
+
+}  // namespace
+
+float ray_offset(const Triangle& triangle) {
+  const auto& p = triangle.position;
+  const glm::vec3 reach = glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2])));
+  return OFFSET_FRACTION * std::max({reach.x, reach.y, reach.z});
+}
+
+LightTable build_light_table(const Scene& scene, LightChoice choice) {
+  LightTable table;
+  table.triangle_of.assign(scene.triangles.size(), NO_LIGHT);
+  std::vector<double> powers;
+  for (const auto& triangles : connected_groups(scene, find_emitters(scene))) {
+    powers.push_back(add_light(table, scene, triangles));
+  }
+  const double total = sum_of(powers);
+  const std::vector<double> chances =
+      choice == LightChoice::uniform ? std::vector<double>(powers.size(), 1.0) : powers;
+  const double all = sum_of(chances);
+  const std::vector<AliasSlot> slots = build_aliases(chances);
+  for (std::size_t i = 0; i < table.lights.size(); ++i) {
+    Light& light = table.lights[i];
+    light.choice = vec4(static_cast<float>(chances[i] / all), static_cast<float>(powers[i] / total), 0, 0);
+    light.link.x = slots[i].alias;
+    light.link.z = slots[i].threshold;
+    light.axis.w /= table.brightest;
+  }
+  return table;
+}
+
+}  // namespace qtrace::gpu

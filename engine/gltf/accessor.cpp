@@ -1,0 +1,130 @@
+#include "engine/gltf/accessor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace qtrace::gltf {
+namespace {
+
+constexpr std::array kFloat{TINYGLTF_COMPONENT_TYPE_FLOAT};
+constexpr std::array kUv{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                         TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
+constexpr std::array kIndex{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                            TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
+
+void check_layout(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
+                  const std::string& role) {
+  const auto& allowed = layout.component_types;
+  const bool is_float = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  const bool fits = accessor.type == layout.type &&
+                    std::find(allowed.begin(), allowed.end(), accessor.componentType) != allowed.end() &&
+                    (is_float || accessor.normalized == layout.integers_are_normalized);
+  source.check(fits, "{} has the wrong type (component type {}{}); {} would be right", role,
+               accessor.componentType, accessor.normalized ? ", normalized" : "", layout.text);
+}
+
+// Sizes come from the file, so sums may overflow: each check subtracts from what is known to be there.
+void check_view(const Source& source, const tinygltf::BufferView& view, int index) {
+  const std::size_t size = source.model.buffers[static_cast<std::size_t>(view.buffer)].data.size();
+  source.check(view.byteOffset <= size && view.byteLength <= size - view.byteOffset,
+               "bufferView {} covers {} bytes from byte {}, and buffer {} has {}", index, view.byteLength,
+               view.byteOffset, view.buffer, size);
+}
+
+void check_extent(const Source& source, const tinygltf::Accessor& accessor, const tinygltf::BufferView& view,
+                  std::size_t element, std::size_t stride, const std::string& role) {
+  source.check(stride >= element, "{}: bufferView {} has a byteStride of {}; {} or more would be right", role,
+               accessor.bufferView, stride, element);
+  source.check(accessor.count > 0, "{} has a count of 0; 1 or more would be right", role);
+  const std::size_t offset = std::min(accessor.byteOffset, view.byteLength);
+  const std::size_t space = view.byteLength - offset;
+  const std::size_t room = space < element ? 0 : (space - element) / stride + 1;
+  source.check(accessor.count <= room, "{} has {} elements from byte {}, and bufferView {} has room for {}",
+               role, accessor.count, accessor.byteOffset, accessor.bufferView, room);
+}
+
+}  // namespace
+
+const Layout kVec3Layout{TINYGLTF_TYPE_VEC3, kFloat, false, "VEC3 of float"};
+const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kUv, true,
+                       "VEC2 of float or of normalized unsigned bytes or shorts"};
+const Layout kIndexLayout{TINYGLTF_TYPE_SCALAR, kIndex, false, "SCALAR of unsigned bytes, shorts or ints"};
+
+AccessorView::AccessorView(const Source& source, int accessor_index, const Layout& layout,
+                           const std::string& role)
+    : role_(fmt::format("{} (accessor {})", role, accessor_index)) {
+  const tinygltf::Accessor& accessor = source.model.accessors.at(static_cast<std::size_t>(accessor_index));
+  const tinygltf::BufferView& view =
+      source.model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+  check_layout(source, accessor, layout, role_);
+  check_view(source, view, accessor.bufferView);
+  const auto component_size =
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+  const auto components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  const auto element = static_cast<std::size_t>(component_size * components);
+  stride_ = view.byteStride == 0 ? element : view.byteStride;
+  check_extent(source, accessor, view, element, stride_, role_);
+  data_ = source.model.buffers[static_cast<std::size_t>(view.buffer)].data.data() + view.byteOffset +
+          accessor.byteOffset;
+  count_ = accessor.count;
+  component_type_ = accessor.componentType;
+}
+
+template <class T>
+T AccessorView::component(std::size_t i, std::size_t component) const {
+  T value;
+  std::memcpy(&value, data_ + i * stride_ + component * sizeof(T), sizeof(T));
+  return value;
+}
+
+glm::vec3 AccessorView::vec3(const Source& source, std::size_t i) const {
+  const glm::vec3 value(component<float>(i, 0), component<float>(i, 1), component<float>(i, 2));
+  if (!std::isfinite(value.x) || !std::isfinite(value.y) || !std::isfinite(value.z)) {
+    source.fail("{}: element {} is ({}, {}, {}); finite numbers would be right", role_, i, value.x, value.y,
+                value.z);
+  }
+  return value;
+}
+
+glm::vec2 AccessorView::uv(const Source& source, std::size_t i) const {
+  switch (component_type_) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return glm::vec2(component<std::uint8_t>(i, 0), component<std::uint8_t>(i, 1)) / 255.0F;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return glm::vec2(component<std::uint16_t>(i, 0), component<std::uint16_t>(i, 1)) / 65535.0F;
+    default:
+      break;
+  }
+  const glm::vec2 value(component<float>(i, 0), component<float>(i, 1));
+  if (!std::isfinite(value.x) || !std::isfinite(value.y)) {
+    source.fail("{}: element {} is ({}, {}); finite numbers would be right", role_, i, value.x, value.y);
+  }
+  return value;
+}
+
+std::uint32_t AccessorView::index(std::size_t i) const {
+  switch (component_type_) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return component<std::uint8_t>(i, 0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return component<std::uint16_t>(i, 0);
+    default:
+      return component<std::uint32_t>(i, 0);
+  }
+}
+
+std::uint32_t AccessorView::restart_value() const {
+  switch (component_type_) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return std::numeric_limits<std::uint8_t>::max();
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return std::numeric_limits<std::uint16_t>::max();
+    default:
+      return std::numeric_limits<std::uint32_t>::max();
+  }
+}
+
+}  // namespace qtrace::gltf

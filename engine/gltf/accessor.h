@@ -1,0 +1,52 @@
+// Checked, typed reads of vertex attributes and indices.
+#pragma once
+
+#include "engine/gltf/source.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace qtrace::gltf {
+
+// What an accessor must hold for its role.
+struct Layout {
+  int type;
+  std::span<const int> component_types;
+  bool integers_are_normalized;
+  std::string_view text;  // for messages
+};
+
+extern const Layout kVec3Layout;   // POSITION, NORMAL
+extern const Layout kUvLayout;     // TEXCOORD_0
+extern const Layout kIndexLayout;  // indices
+
+// Elements inside their buffer. Data need not be aligned, so each read copies.
+class AccessorView {
+ public:
+  // `role` is what messages call it, such as "mesh 'teapot' primitive 0 NORMAL".
+  AccessorView(const Source& source, int accessor, const Layout& layout, const std::string& role);
+
+  std::size_t size() const { return count_; }
+  glm::vec3 vec3(const Source& source, std::size_t i) const;  // Error unless finite
+  glm::vec2 uv(const Source& source, std::size_t i) const;    // Error unless finite
+  std::uint32_t index(std::size_t i) const;
+  std::uint32_t restart_value() const;  // the index that would restart a strip, which glTF forbids
+  const std::string& role() const { return role_; }
+
+ private:
+  template <class T>
+  T component(std::size_t i, std::size_t component) const;
+
+  std::string role_;
+  const unsigned char* data_ = nullptr;
+  std::size_t stride_ = 0;
+  std::size_t count_ = 0;
+  int component_type_ = 0;
+};
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,141 @@
+#include "engine/gltf/duplicates.h"
+
+#include <glm/geometric.hpp>
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace qtrace::gltf {
+namespace {
+
+using Corners = std::array<glm::vec3, 3>;
+
+// In an order of their own, and zeros without a sign.
+Corners sorted_corners(const Triangle& triangle) {
+  Corners corners = triangle.position;
+  for (glm::vec3& p : corners) p += 0.0F;
+  std::ranges::sort(corners, {}, [](const glm::vec3& p) { return std::tuple(p.x, p.y, p.z); });
+  return corners;
+}
+
+struct Duplicate {
+  std::uint32_t triangle;
+  std::uint32_t original;  // before it, and kept
+};
+
+bool emits(const Scene& scene, std::uint32_t triangle) {
+  return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
+}
+
+// Pairs of which one emits at least, ordered by triangle.
+std::vector<Duplicate> find_duplicates(const Scene& scene) {
+  const std::vector<Triangle>& triangles = scene.triangles;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+  keys.reserve(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const Corners corners = sorted_corners(triangles[i]);
+    keys.emplace_back(XXH3_64bits(corners.data(), sizeof(corners)), i);
+  }
+  std::ranges::sort(keys);
+  std::vector<Duplicate> duplicates;
+  std::vector<std::uint32_t> kept;  // different triangles of one hash
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i == 0 || keys[i].first != keys[i - 1].first) kept.clear();
+    const std::uint32_t triangle = keys[i].second;
+    const auto original = std::ranges::find_if(kept, [&](std::uint32_t other) {
+      return sorted_corners(triangles[other]) == sorted_corners(triangles[triangle]);
+    });
+    if (original == kept.end()) {
+      kept.push_back(triangle);
+    } else if (emits(scene, triangle) || emits(scene, *original)) {
+      duplicates.push_back({triangle, *original});
+    }
+  }
+  std::ranges::sort(duplicates, {}, &Duplicate::triangle);
+  return duplicates;
+}
+
+bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
+  const Material& first = scene.materials[a.material];
+  const Material& second = scene.materials[b.material];
+  if (first.emission != second.emission) return false;
+  if (first.emission == glm::vec3(0.0F)) return true;
+  if (first.double_sided != second.double_sided) return false;
+  return first.double_sided || glm::dot(area_vector(a.position), area_vector(b.position)) > 0;
+}
+
+std::string triangle_label(const Scene& scene, std::uint32_t index) {
+  const std::size_t object = scene.triangles[index].object;
+  return fmt::format("triangle {} of {}", index - scene.objects[object].first_triangle,
+                     label("object", object, scene.objects[object].name));
+}
+
+std::string middle_of(const Scene& scene, std::uint32_t index) {
+  const auto& p = scene.triangles[index].position;
+  const glm::dvec3 middle = (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2])) / 3.0 + scene.origin;
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", middle.x, middle.y, middle.z);
+}
+
+void check_emission(const Source& source, const Scene& scene, const std::vector<Duplicate>& duplicates) {
+  for (const Duplicate& d : duplicates) {
+    source.check(
+        emit_alike(scene, scene.triangles[d.original], scene.triangles[d.triangle]),
+        "{} and {}, about {}, have the same corners but do not emit alike; only one of them would be right",
+        triangle_label(scene, d.original), triangle_label(scene, d.triangle), middle_of(scene, d.original));
+  }
+}
+
+// One warning for each object that loses triangles, which names the first.
+void warn_of(Source& source, const Scene& scene, const std::vector<Duplicate>& duplicates) {
+  for (auto first = duplicates.begin(); first != duplicates.end();) {
+    const std::uint32_t object = scene.triangles[first->triangle].object;
+    const auto end = std::find_if(first, duplicates.end(), [&](const Duplicate& d) {
+      return scene.triangles[d.triangle].object != object;
+    });
+    source.warn(
+        "{}: dropped {} of {} triangles that lie exactly on others, the first of them {}, about {}, on {}",
+        label("object", object, scene.objects[object].name), end - first,
+        scene.objects[object].triangle_count, triangle_label(scene, first->triangle),
+        middle_of(scene, first->triangle), triangle_label(scene, first->original));
+    first = end;
+  }
+}
+
+// Objects that have nothing left are omitted.
+void remove(Scene& scene, const std::vector<Duplicate>& duplicates) {
+  std::vector<Triangle> triangles;
+  std::vector<Object> objects;
+  triangles.reserve(scene.triangles.size());
+  auto next = duplicates.begin();
+  for (const Object& object : scene.objects) {
+    Object rest = object;
+    rest.first_triangle = static_cast<std::uint32_t>(triangles.size());
+    for (std::uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i) {
+      if (next != duplicates.end() && next->triangle == i) {
+        ++next;
+        continue;
+      }
+      triangles.push_back(scene.triangles[i]);
+      triangles.back().object = static_cast<std::uint32_t>(objects.size());
+    }
+    rest.triangle_count = static_cast<std::uint32_t>(triangles.size()) - rest.first_triangle;
+    if (rest.triangle_count > 0) objects.push_back(std::move(rest));
+  }
+  scene.triangles = std::move(triangles);
+  scene.objects = std::move(objects);
+}
+
+}  // namespace
+
+void drop_duplicates(Source& source, Scene& scene) {
+  const std::vector<Duplicate> duplicates = find_duplicates(scene);
+  if (duplicates.empty()) return;
+  check_emission(source, scene, duplicates);
+  warn_of(source, scene, duplicates);
+  remove(scene, duplicates);
+}
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,105 @@
+#include "engine/gltf/material.h"
+
+#include <limits>
+
+namespace qtrace::gltf {
+namespace {
+
+constexpr float kNoLimit = std::numeric_limits<float>::max();
+
+// Numbers of one material, checked; messages name it.
+class Factors {
+ public:
+  Factors(const Source& source, std::string material) : source_(source), material_(std::move(material)) {}
+
+  float scalar(std::string_view property, double value, float max) const {
+    source_.check(value >= 0 && value <= max, "{}: {} is {}; {} would be right", material_, property, value,
+                  max < kNoLimit ? fmt::format("0 to {}", max) : "0 or more");
+    return static_cast<float>(value);
+  }
+
+  glm::vec3 rgb(std::string_view property, const std::vector<double>& value, float max) const {
+    return {scalar(property, value[0], max), scalar(property, value[1], max),
+            scalar(property, value[2], max)};
+  }
+
+ private:
+  const Source& source_;
+  std::string material_;
+};
+
+const tinygltf::Value* find_property(const tinygltf::Material& material, const std::string& extension,
+                                     const std::string& property) {
+  const auto found = material.extensions.find(extension);
+  const bool is_there = found != material.extensions.end() && found->second.Has(property);
+  return is_there ? &found->second.Get(property) : nullptr;
+}
+
+void read_specular(const tinygltf::Material& file, const Factors& factors, Material& material) {
+  const std::string extension = "KHR_materials_specular";
+  if (const tinygltf::Value* value = find_property(file, extension, "specularFactor")) {
+    material.specular = factors.scalar("specularFactor", value->GetNumberAsDouble(), 1);
+  }
+  if (const tinygltf::Value* value = find_property(file, extension, "specularColorFactor")) {
+    const auto number = [&](int i) { return value->Get(i).GetNumberAsDouble(); };
+    material.specular_color = factors.rgb("specularColorFactor", {number(0), number(1), number(2)}, kNoLimit);
+  }
+}
+
+void read_emission(const tinygltf::Material& file, const Factors& factors, Material& material) {
+  const tinygltf::Value* value = find_property(file, "KHR_materials_emissive_strength", "emissiveStrength");
+  const float strength =
+      value == nullptr ? 1 : factors.scalar("emissiveStrength", value->GetNumberAsDouble(), kNoLimit);
+  material.emission = strength * factors.rgb("emissiveFactor", file.emissiveFactor, 1);
+}
+
+void warn_of_textures(Source& source, const tinygltf::Material& file, const std::string& name) {
+  std::vector<std::string_view> slots;
+  const auto note = [&](int index, const char* slot) {
+    if (index >= 0) slots.emplace_back(slot);
+  };
+  note(file.pbrMetallicRoughness.baseColorTexture.index, "baseColorTexture");
+  note(file.pbrMetallicRoughness.metallicRoughnessTexture.index, "metallicRoughnessTexture");
+  note(file.normalTexture.index, "normalTexture");
+  note(file.occlusionTexture.index, "occlusionTexture");
+  note(file.emissiveTexture.index, "emissiveTexture");
+  for (const char* slot : {"specularTexture", "specularColorTexture"}) {
+    if (find_property(file, "KHR_materials_specular", slot) != nullptr) slots.emplace_back(slot);
+  }
+  if (slots.empty()) return;
+  source.warn("{}: {} {} not modelled; the factors alone are used", name, joined(slots, ", "),
+              slots.size() == 1 ? "is" : "are");
+}
+
+Material read_material(Source& source, std::size_t index) {
+  const tinygltf::Material& file = source.model.materials[index];
+  const tinygltf::PbrMetallicRoughness& pbr = file.pbrMetallicRoughness;
+  const std::string name = label("material", index, file.name);
+  const Factors factors(source, name);
+  Material material;
+  material.name = file.name.empty() ? name : file.name;
+  material.base_color = factors.rgb("baseColorFactor", pbr.baseColorFactor, 1);
+  factors.scalar("baseColorFactor", pbr.baseColorFactor[3], 1);
+  material.metallic = factors.scalar("metallicFactor", pbr.metallicFactor, 1);
+  material.roughness = factors.scalar("roughnessFactor", pbr.roughnessFactor, 1);
+  material.double_sided = file.doubleSided;
+  read_specular(file, factors, material);
+  read_emission(file, factors, material);
+  warn_of_textures(source, file, name);
+  if (file.alphaMode != "OPAQUE") {
+    source.warn("{}: alphaMode {} is not modelled; the material is opaque", name, file.alphaMode);
+  }
+  return material;
+}
+
+}  // namespace
+
+std::vector<Material> read_materials(Source& source) {
+  std::vector<Material> materials;
+  for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
+    materials.push_back(read_material(source, i));
+  }
+  return materials;
+}
+
+}  // namespace qtrace::gltf

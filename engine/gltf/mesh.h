@@ -1,0 +1,20 @@
+#pragma once
+
+#include "engine/gltf/limits.h"
+#include "engine/gltf/node.h"
+#include "engine/scene/scene.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace qtrace::gltf {
+
+// Before anything walks through them. Error for more than `limits`.
+std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>& nodes,
+                            const SceneLimits& limits);
+
+// Fills scene.triangles and scene.objects, and appends glTF's default material where one is needed.
+// Warnings name the primitives, triangles and normals that cannot be used.
+void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene);
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,145 @@
+#include "engine/gltf/node.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace qtrace::gltf {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+std::vector<std::size_t> find_parents(const Source& source) {
+  const std::vector<tinygltf::Node>& nodes = source.model.nodes;
+  std::vector<std::size_t> parents(nodes.size(), kNone);
+  for (std::size_t parent = 0; parent < nodes.size(); ++parent) {
+    for (const int child_index : nodes[parent].children) {
+      const auto child = static_cast<std::size_t>(child_index);
+      if (parents[child] != kNone) {
+        source.fail("{} is a child of {} and again of {}; one parent would be right",
+                    node_label(source, child), node_label(source, parents[child]),
+                    node_label(source, parent));
+      }
+      parents[child] = parent;
+    }
+  }
+  return parents;
+}
+
+// With at most one parent each, the nodes that no root reaches form cycles.
+void check_acyclic(const Source& source, const std::vector<std::size_t>& parents) {
+  std::vector<bool> is_reached(parents.size(), false);
+  std::vector<std::size_t> pending;
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (parents[node] == kNone) pending.push_back(node);
+  }
+  while (!pending.empty()) {
+    const std::size_t node = pending.back();
+    pending.pop_back();
+    is_reached[node] = true;
+    for (const int child : source.model.nodes[node].children) {
+      pending.push_back(static_cast<std::size_t>(child));
+    }
+  }
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (!is_reached[node]) {
+      source.fail("{} is its own ancestor; a hierarchy without cycles would be right",
+                  node_label(source, node));
+    }
+  }
+}
+
+std::vector<std::size_t> find_roots(const Source& source, const std::vector<std::size_t>& parents) {
+  std::vector<std::size_t> roots;
+  if (source.model.scenes.empty()) {
+    for (std::size_t node = 0; node < parents.size(); ++node) {
+      if (parents[node] == kNone) roots.push_back(node);
+    }
+    return roots;
+  }
+  const auto scene = static_cast<std::size_t>(std::max(source.model.defaultScene, 0));
+  std::set<int> seen;
+  for (const int index : source.model.scenes[scene].nodes) {
+    const auto node = static_cast<std::size_t>(index);
+    source.check(seen.insert(index).second, "the scene lists {} twice; once would be right",
+                 node_label(source, node));
+    source.check(parents[node] == kNone, "the scene lists {}, which has a parent; only roots would be right",
+                 node_label(source, node));
+    roots.push_back(node);
+  }
+  return roots;
+}
+
+glm::dmat4 local_transform(const Source& source, std::size_t index) {
+  const tinygltf::Node& node = source.model.nodes[index];
+  if (!node.matrix.empty()) {
+    const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
+    const bool is_affine = matrix[0][3] == 0 && matrix[1][3] == 0 && matrix[2][3] == 0 && matrix[3][3] == 1;
+    source.check(is_affine, "{}: the matrix is not affine; 0 0 0 1 would be right as its last row",
+                 node_label(source, index));
+    return matrix;
+  }
+  glm::dmat4 transform(1.0);
+  if (!node.translation.empty()) {
+    transform = glm::translate(transform, glm::make_vec3(node.translation.data()));
+  }
+  if (!node.rotation.empty()) {
+    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    const double length = glm::length(rotation);
+    source.check(std::abs(length - 1) < 1e-3,
+                 "{}: the rotation has length {}; a unit quaternion would be right",
+                 node_label(source, index), length);
+    transform *= glm::mat4_cast(rotation / length);
+  }
+  if (!node.scale.empty()) transform = glm::scale(transform, glm::make_vec3(node.scale.data()));
+  return transform;
+}
+
+bool fits_float(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      // Written so that NaN fails too.
+      if (!(std::abs(matrix[column][row]) <= std::numeric_limits<float>::max())) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string node_label(const Source& source, std::size_t index) {
+  return label("node", index, source.model.nodes[index].name);
+}
+
+std::vector<PlacedNode> place_nodes(const Source& source) {
+  const std::vector<std::size_t> parents = find_parents(source);
+  check_acyclic(source, parents);
+  std::vector<PlacedNode> pending;
+  const std::vector<std::size_t> roots = find_roots(source, parents);
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
+
+  // A stack of our own: a file may nest nodes deeper than the call stack.
+  std::vector<PlacedNode> placed;
+  while (!pending.empty()) {
+    PlacedNode node = pending.back();
+    pending.pop_back();
+    node.to_world *= local_transform(source, node.index);  // until here: the parent's
+    if (!fits_float(node.to_world)) {
+      source.fail("{}: its world transform overflows; smaller translations and scales would be right",
+                  node_label(source, node.index));
+    }
+    placed.push_back(node);
+    const std::vector<int>& children = source.model.nodes[node.index].children;
+    for (auto child = children.rbegin(); child != children.rend(); ++child) {
+      pending.push_back({static_cast<std::size_t>(*child), node.to_world});
+    }
+  }
+  return placed;
+}
+
+}  // namespace qtrace::gltf

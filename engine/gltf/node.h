@@ -1,0 +1,24 @@
+// The node hierarchy, flattened.
+#pragma once
+
+#include "engine/gltf/source.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace qtrace::gltf {
+
+struct PlacedNode {
+  std::size_t index;    // into Model::nodes
+  glm::dmat4 to_world;  // its elements are finite as floats too
+};
+
+// The nodes of the default scene, else of the first, else all; parents before children, siblings in order.
+// Error where the nodes do not form trees.
+std::vector<PlacedNode> place_nodes(const Source& source);
+
+std::string node_label(const Source& source, std::size_t index);
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,134 @@
+#include "engine/gltf/json.h"
+
+#include "engine/gltf/rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace qtrace::gltf {
+namespace {
+
+using nlohmann::json;
+
+// Words of digits stand for integers, others for strings.
+bool is_one_of(std::string_view words, const json& value) {
+  const bool are_integers = words.front() >= '0' && words.front() <= '9';
+  if (!are_integers && !value.is_string()) return false;
+  const std::string spelling = are_integers ? value.dump() : value.get<std::string>();
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == spelling) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
+std::string found(const json& value) {
+  return value.is_structured() ? fmt::format("an {}", value.type_name()) : shortened(value.dump(), 60);
+}
+
+bool fits_float(const json& value) {
+  return value.is_number() && std::abs(value.get<double>()) <= std::numeric_limits<float>::max();
+}
+
+void check_index(const Source& source, const json& document, const json& value, const std::string& where,
+                 std::string_view target) {
+  const auto array = document.find(target);
+  const std::size_t count = array != document.end() && array->is_array() ? array->size() : 0;
+  source.check(value.is_number_unsigned() && value.get<std::uint64_t>() < count,
+               "{} is {}; an index below {}, the number of {}, would be right", where, found(value), count,
+               target);
+}
+
+void check_numbers(const Source& source, json& value, const std::string& where, std::size_t length) {
+  source.check(value.is_array() && value.size() == length, "{} is {}; an array of {} numbers would be right",
+               where, found(value), length);
+  for (json& number : value) {
+    source.check(fits_float(number), "{} holds {}; finite numbers within float's range would be right", where,
+                 found(number));
+    number = number.get<double>();
+  }
+}
+
+void check_stride(const Source& source, const json& value, const std::string& where) {
+  const bool is_valid =
+      value.is_number_unsigned() && value >= 4U && value <= 252U && value.get<std::uint64_t>() % 4 == 0;
+  source.check(is_valid, "{} is {}; a multiple of 4 from 4 to 252 would be right", where, found(value));
+}
+
+void check_leaf(const Source& source, const json& document, json& value, const std::string& where,
+                const Rule& rule) {
+  const auto expect = [&](bool condition, std::string_view right) {
+    if (!condition) source.fail("{} is {}; {} would be right", where, found(value), right);
+  };
+  switch (rule.kind) {
+    case Kind::string:
+      return expect(value.is_string(), "a string");
+    case Kind::boolean:
+      return expect(value.is_boolean(), "true or false");
+    case Kind::integer:
+      return expect(value.is_number_unsigned(), "an integer of 0 or more");
+    case Kind::stride:
+      return check_stride(source, value, where);
+    case Kind::numbers:
+      return check_numbers(source, value, where, rule.length);
+    case Kind::one_of:
+      return expect(is_one_of(rule.words, value), fmt::format("one of {}", rule.words));
+    case Kind::index:
+      return check_index(source, document, value, where, rule.words);
+    case Kind::number:
+      expect(fits_float(value), "a finite number within float's range");
+      value = value.get<double>();
+  }
+}
+
+// Walks `path` from `value`; recursion is as deep as a path is long.
+void visit(const Source& source, const json& document, json& value, std::string_view path,
+           const std::string& where, const Rule& rule) {
+  if (path.empty()) return check_leaf(source, document, value, where, rule);
+  const std::size_t end = std::min(path.find('/'), path.size());
+  std::string_view name = path.substr(0, end);
+  const std::string_view rest = path.substr(std::min(end + 1, path.size()));
+  if (name == "[]") {
+    source.check(value.is_array(), "{} is {}; an array would be right", where, found(value));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      visit(source, document, value[i], rest, fmt::format("{}[{}]", where, i), rule);
+    }
+    return;
+  }
+  source.check(value.is_object(), "{} is {}; an object would be right", where, found(value));
+  const auto enter = [&](const std::string& key, json& member) {
+    visit(source, document, member, rest, where.empty() ? key : where + "." + key, rule);
+  };
+  if (name == "{}") {
+    for (const auto& [key, member] : value.items()) enter(key, member);
+    return;
+  }
+  const bool required = name.ends_with('!');
+  if (required) name.remove_suffix(1);
+  const auto member = value.find(name);
+  source.check(member != value.end() || !required, "{}.{} is missing", where, name);
+  if (member != value.end()) enter(std::string(name), *member);
+}
+
+// tinygltf would drop the three without a word.
+void check_transform(const Source& source, const json& node, std::size_t index) {
+  const bool has_parts = node.contains("translation") || node.contains("rotation") || node.contains("scale");
+  source.check(!node.contains("matrix") || !has_parts,
+               "nodes[{}] has a matrix beside translation, rotation or scale; one of both would be right",
+               index);
+}
+
+}  // namespace
+
+void check_json(const Source& source, json& document) {
+  for (const Rule& rule : kRules) visit(source, document, document, rule.path, "", rule);
+  const auto nodes = document.find("nodes");
+  for (std::size_t i = 0; nodes != document.end() && i < nodes->size(); ++i) {
+    check_transform(source, (*nodes)[i], i);
+  }
+}
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,76 @@
+#include "experiments/commands/config_command.h"
+
+#include "experiments/config/config_errors.h"
+#include "experiments/study/experiment.h"
+#include "experiments/config/json_schema.h"
+#include "experiments/runtime/manifest.h"
+
+#include <cstdio>
+#include <set>
+
+namespace qtrace::experiments {
+namespace {
+
+// Everything that `run` checks before its first frame; what is wrong goes to stderr. Returns whether all is
+// good.
+bool check_config(const std::string& file, const ConfigOptions& options, const gpu::Context* context,
+                  SceneStore& scenes, Progress& progress) {
+  Experiment experiment;
+  std::vector<std::string> errors = config_errors(file, options.sets, experiment);
+  try {
+    if (errors.empty()) load_scenes(experiment, scenes, progress);
+    if (errors.empty() && context != nullptr) check_device(experiment, *context, scenes);
+  } catch (const Error& error) {
+    errors.emplace_back(error.what());
+  }
+  for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
+  if (!errors.empty()) return false;
+  std::set<std::string> cells;
+  for (const Run& run : experiment.runs) cells.insert(run.cell);
+  fmt::print("{}: good: '{}', runs: {}, cells: {}\n", file, experiment.name, experiment.runs.size(),
+             cells.size());
+  return true;
+}
+
+int check_configs(const ConfigOptions& options) {
+  std::optional<gpu::Context> context;
+  if (!options.no_device) context.emplace(options.device);
+  Progress progress(Progress::detect(true));
+  SceneStore scenes;
+  bool all_good = true;
+  for (const std::string& file : options.files) {
+    all_good = check_config(file, options, context ? &*context : nullptr, scenes, progress) && all_good;
+  }
+  return all_good ? 0 : 1;
+}
+
+}  // namespace
+
+void add_config_command(CLI::App& app, ConfigOptions& options) {
+  options.command =
+      app.add_subcommand("config", "The schema of experiment files, and whether files are good");
+  options.command->require_subcommand(1);
+  options.schema = options.command->add_subcommand(
+      "schema", "Prints a JSON Schema of experiment files, for editors and other programs");
+  options.check = options.command->add_subcommand(
+      "check",
+      "Checks files and their scenes as a run would, without rendering: exit code 1 if one is wrong");
+  options.check->add_option("FILE", options.files, "experiment files (JSON)")->required();
+  options.check->add_option("--set", options.sets, "key=value, as of `qtrace run`")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  options.check->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  options.check->add_flag("--no-device", options.no_device,
+                          "leaves out what depends on a device: whether its buffers are large enough");
+}
+
+int config_command(const ConfigOptions& options) {
+  if (options.schema->parsed()) {
+    fmt::print("{}", json_text(config_schema()));
+    return 0;
+  }
+  return check_configs(options);
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,32 @@
+// Content hashes: XXH3 with 128 bits, as 32 hexadecimal digits.
+#pragma once
+
+#include <xxhash.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace qtrace::experiments {
+
+std::string hash_text(std::string_view text);
+
+// A hash of values in the order in which they are added.
+class Hasher {
+ public:
+  Hasher();
+
+  // The bytes of values that have no padding.
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    XXH3_128bits_update(state_.get(), &value, sizeof(T));
+  }
+  std::string digest() const;
+
+ private:
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+}  // namespace qtrace::experiments

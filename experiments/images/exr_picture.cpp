@@ -1,0 +1,163 @@
+#include "experiments/images/exr_picture.h"
+
+#include "engine/core/check.h"
+#include "experiments/images/colour.h"
+#include "experiments/images/exr.h"
+#include "experiments/images/exr_layers.h"
+#include "experiments/images/exr_planes.h"
+
+#include <ImfChannelList.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
+
+#include <glm/matrix.hpp>
+
+#include <memory>
+
+namespace qtrace::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<Imf::MultiPartInputFile> open(const fs::path& file) {
+  check(fs::is_regular_file(file), "{}: no such file; an OpenEXR image is needed", file.string());
+  try {
+    return std::make_unique<Imf::MultiPartInputFile>(file.c_str());
+  } catch (const std::exception& error) {
+    fail("{}: cannot be read as an OpenEXR image: {}", file.string(), error.what());
+  }
+}
+
+PixelBox box_of(const Imath::Box2i& window) {
+  return {window.min.x, window.min.y, window.max.x, window.max.y};
+}
+
+std::vector<std::string> variance_channels(const Imf::Header& header, const ExrLayer& layer) {
+  if (layer.kind != LayerKind::rgb || layer.name != kRootLayer) return {};
+  std::vector<std::string> names;
+  for (const char* name : {"variance.R", "variance.G", "variance.B"}) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (channel != nullptr && channel->type != Imf::UINT && channel->xSampling == 1 &&
+        channel->ySampling == 1) {
+      names.emplace_back(name);
+    }
+  }
+  return names;
+}
+
+// Three planes under the names that to_radiance knows, whatever they are called in the file.
+ExrImage read_planes(Imf::MultiPartInputFile& file, const ExrLayer& layer) {
+  Imf::InputPart part(file, layer.part);
+  const Imath::Box2i window = part.header().dataWindow();
+  ExrImage exr{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}};
+  const auto width = static_cast<std::size_t>(exr.width);
+  Imf::FrameBuffer buffer;
+  const auto add = [&](const std::string& channel, const std::string& name) {
+    std::vector<float>& plane = exr.channels[name];
+    plane.resize(width * static_cast<std::size_t>(exr.height));
+    buffer.insert(channel, plane_slice(plane, window, width));
+  };
+  const std::vector<std::string> names{"R", "G", "B"};
+  for (std::size_t i = 0; i < layer.channels.size(); ++i) add(layer.channels[i], names[i]);
+  for (const std::string& name : variance_channels(part.header(), layer)) add(name, name);
+  part.setFrameBuffer(buffer);
+  part.readPixels(window.min.y, window.max.y);
+  if (layer.channels.size() == 1) exr.channels["G"] = exr.channels["B"] = exr.channels.at("R");
+  const auto* spp = part.header().findTypedAttribute<Imf::StringAttribute>("spp");
+  if (spp != nullptr) exr.metadata["spp"] = spp->value();
+  return exr;
+}
+
+// OpenEXR's own way from luminance and chroma to RGB, in 16-bit floats.
+ExrImage read_chroma(const fs::path& file, const ExrLayer& layer) {
+  check(layer.part == 0, "layer '{}' has luminance and chroma, which are read from the first part alone",
+        layer.name);
+  Imf::RgbaInputFile input(file.c_str(), layer.name == kRootLayer ? "" : layer.name);
+  const Imath::Box2i window = input.dataWindow();
+  ExrImage exr{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}};
+  const auto width = static_cast<std::size_t>(exr.width);
+  std::vector<Imf::Rgba> pixels(width * static_cast<std::size_t>(exr.height));
+  const std::ptrdiff_t offset = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
+  const auto base = reinterpret_cast<std::intptr_t>(pixels.data()) -
+                    offset * static_cast<std::ptrdiff_t>(sizeof(Imf::Rgba));
+  input.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(base), 1, width);
+  input.readPixels(window.min.y, window.max.y);
+  for (const Imf::Rgba& pixel : pixels) {
+    exr.channels["R"].push_back(pixel.r);
+    exr.channels["G"].push_back(pixel.g);
+    exr.channels["B"].push_back(pixel.b);
+  }
+  return exr;
+}
+
+std::string describe(const ExrLayer& layer) {
+  const std::string names = fmt::format("{}", fmt::join(layer.channels, ", "));
+  switch (layer.kind) {
+    case LayerKind::rgb:
+      return names;
+    case LayerKind::xyz:
+      return names + " (CIE XYZ, as linear Rec. 709)";
+    case LayerKind::luminance:
+      return names + " (as grey)";
+    case LayerKind::luminance_chroma:
+      return names + " with its chroma RY and BY (as RGB)";
+    case LayerKind::vector:
+      return names + " (as they stand)";
+    case LayerKind::value:
+      return names + " (as it stands)";
+  }
+  return names;
+}
+
+}  // namespace
+
+Picture read_picture(const fs::path& file, const std::string& wanted) {
+  const auto input = open(file);
+  try {
+    const LayerList list = list_layers(*input);
+    const ExrLayer& layer = choose_layer(list, wanted);
+    check(input->partComplete(layer.part), "is truncated");
+    const Imf::Header& header = input->header(layer.part);
+    check_window(header.dataWindow());
+    Picture picture;
+    picture.image = to_radiance(
+        layer.kind == LayerKind::luminance_chroma ? read_chroma(file, layer) : read_planes(*input, layer),
+        file);
+    if (layer.kind == LayerKind::xyz) {
+      const glm::dmat3 to_rgb = glm::inverse(kRec709ToXyz);
+      for (glm::dvec3& pixel : picture.image.mean) pixel = to_rgb * pixel;
+    }
+    picture.data = box_of(header.dataWindow());
+    picture.display = box_of(header.displayWindow());
+    picture.layer = layer.name;
+    picture.channels = describe(layer);
+    return picture;
+  } catch (const Error& error) {
+    fail("{}: {}", file.string(), error.what());
+  } catch (const std::exception& error) {
+    fail("{}: cannot be read as an OpenEXR image: {}", file.string(), error.what());
+  }
+}
+
+bool has_layer(const fs::path& file, const std::string& layer) {
+  return !layers_named(list_layers(*open(file)), layer).empty();
+}
+
+RadianceImage crop(const Picture& picture, const PixelBox& box) {
+  if (box == picture.data) return picture.image;
+  RadianceImage part{box.width(), box.height(), picture.image.samples, {}, {}};
+  for (int y = box.top; y <= box.bottom; ++y) {
+    for (int x = box.left; x <= box.right; ++x) {
+      const auto i =
+          static_cast<std::size_t>(y - picture.data.top) * static_cast<std::size_t>(picture.image.width) +
+          static_cast<std::size_t>(x - picture.data.left);
+      part.mean.push_back(picture.image.mean[i]);
+      part.variance.push_back(picture.image.variance[i]);
+    }
+  }
+  return part;
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,158 @@
+#include "experiments/records/ratios.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qtrace::experiments {
+namespace {
+
+const std::vector<std::string> kFigures{"host_ms_median", "gpu_ms_median",  "mse",
+                                        "relmse",         "relmse_trimmed", "relmse_x_s"};
+
+// The variance of one side of a comparison, and the seeds behind it.
+struct Side {
+  double variance = 0;
+  std::size_t seeds = 0;
+};
+
+// Welch 1947, The generalization of 'Student's' problem when several different population variances are
+// involved.
+Interval welch(double log_value, const Side& a, const Side& b) {
+  Interval result{std::exp(log_value), {}, {}};
+  const double variance = a.variance + b.variance;
+  double inverse_degrees = 0;
+  for (const Side& side : {a, b}) {
+    if (side.seeds == 0) continue;       // known exactly
+    if (side.seeds == 1) return result;  // its variance is unknown
+    if (variance == 0 || side.variance == 0) continue;
+    const double share = side.variance / variance;
+    inverse_degrees += share * share / static_cast<double>(side.seeds - 1);
+  }
+  const double half_width = variance == 0 ? 0 : t_quantile(1 / inverse_degrees) * std::sqrt(variance);
+  result.low = result.value * std::exp(-half_width);
+  result.high = result.value * std::exp(half_width);
+  return result;
+}
+
+Side relative_error(const Estimate& estimate) {
+  const double relative = estimate.sd.value_or(0) / estimate.mean;
+  return {relative * relative / static_cast<double>(estimate.count), estimate.count};
+}
+
+// Efron and Stein 1981, The jackknife estimate of variance.
+Side jackknife_variance(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  double mean = 0;
+  for (const double value : values) mean += value / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {values.empty() ? 0 : squares * (count - 1) / count, values.size()};
+}
+
+std::vector<Curve> curves_of(const Cell& cell, Metric metric) {
+  std::vector<Curve> curves;
+  for (const RunRecord* run : cell.members) curves.push_back(curve_of(*run, metric));
+  return curves;
+}
+
+// log(the baseline's seconds / the cell's until it has the baseline's error), both mean curves.
+std::optional<double> log_time_ratio(const Curve& baseline, const Curve& cell) {
+  const auto time = time_to_error(cell, baseline.back().error);
+  return time ? std::optional(std::log(baseline.back().seconds / *time)) : std::nullopt;
+}
+
+// `without(i)` for each seed; nothing where one of them is nothing or there is one seed alone.
+template <class Without>
+std::optional<std::vector<double>> leave_one_out(std::size_t seeds, Without without) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < seeds && seeds > 1; ++i) {
+    const std::optional<double> value = without(i);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values.empty() ? std::nullopt : std::optional(values);
+}
+
+std::optional<Interval> time_ratio(const std::vector<Curve>& baseline, const std::vector<Curve>& cell) {
+  const Curve baseline_mean = mean_curve(baseline);
+  const Curve cell_mean = mean_curve(cell);
+  const auto value = log_time_ratio(baseline_mean, cell_mean);
+  if (!value) return std::nullopt;
+  const auto above = leave_one_out(
+      baseline.size(), [&](std::size_t i) { return log_time_ratio(mean_curve(baseline, i), cell_mean); });
+  const auto below = leave_one_out(
+      cell.size(), [&](std::size_t i) { return log_time_ratio(baseline_mean, mean_curve(cell, i)); });
+  return above && below ? jackknife(*value, *above, *below) : Interval{std::exp(*value), {}, {}};
+}
+
+TimeToError compare_times(const Cell& baseline, const Cell& cell, Metric metric) {
+  const std::vector<Curve> baseline_curves = curves_of(baseline, metric);
+  const std::vector<Curve> cell_curves = curves_of(cell, metric);
+  TimeToError result;
+  if (baseline_curves.empty() || cell_curves.empty()) return result;
+  result.target = mean_curve(baseline_curves).back().error;
+  result.time = time_to_error(cell_curves, *result.target);
+  result.ratio = time_ratio(baseline_curves, cell_curves);
+  return result;
+}
+
+// The baseline that differs from the cell in one label alone, or null.
+const Cell* baseline_of(const Experiment& experiment, const Cell& cell, const std::vector<Cell>& cells) {
+  for (std::size_t axis = 0; axis < experiment.axes.size(); ++axis) {
+    if (experiment.axes[axis].is_seed) continue;
+    for (const Cell& other : cells) {
+      if (&other == &cell) continue;
+      std::vector<std::string> labels = cell.labels;
+      labels[axis] = other.labels[axis];
+      const bool is_named = other.labels[axis] == experiment.baseline || other.name == experiment.baseline;
+      if (is_named && labels == other.labels && other.scene == cell.scene) return &other;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& below) {
+  if (!(above.mean > 0) || !(below.mean > 0)) return std::nullopt;
+  return welch(std::log(above.mean / below.mean), relative_error(above), relative_error(below));
+}
+
+Interval jackknife(double log_value, const std::vector<double>& log_above,
+                   const std::vector<double>& log_below) {
+  return welch(log_value, jackknife_variance(log_above), jackknife_variance(log_below));
+}
+
+std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double target) {
+  const auto time = time_to_error(mean_curve(seeds), target);
+  if (!time) return std::nullopt;
+  const auto others = leave_one_out(seeds.size(), [&](std::size_t i) -> std::optional<double> {
+    const auto without = time_to_error(mean_curve(seeds, i), target);
+    return without ? std::optional(std::log(*without)) : std::nullopt;
+  });
+  return others ? jackknife(std::log(*time), *others, {}) : Interval{*time, {}, {}};
+}
+
+std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Cell>& cells) {
+  std::vector<Ratios> rows;
+  if (experiment.baseline.empty()) return rows;
+  for (const Cell& cell : cells) {
+    const Cell* baseline = baseline_of(experiment, cell, cells);
+    if (baseline == nullptr) continue;
+    Ratios row{cell.name, baseline->name, cell.scene, {}, {}, {}};
+    for (const std::string& figure : kFigures) {
+      const auto above = baseline->figures.find(figure);
+      const auto below = cell.figures.find(figure);
+      if (above == baseline->figures.end() || below == cell.figures.end()) continue;
+      if (const auto ratio = ratio_of_means(above->second, below->second)) row.figures[figure] = *ratio;
+    }
+    row.mse = compare_times(*baseline, cell, &ErrorMetrics::mse);
+    row.relmse = compare_times(*baseline, cell, &ErrorMetrics::relmse);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+const std::vector<std::string>& ratio_figures() { return kFigures; }
+
+}  // namespace qtrace::experiments

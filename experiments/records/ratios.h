@@ -1,0 +1,62 @@
+// Ratios of a baseline to the other cells: above 1 where the baseline needs more.
+#pragma once
+
+#include "experiments/records/cells.h"
+#include "experiments/records/curve.h"
+#include "experiments/config/experiment_config.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// A positive figure with its 95 % interval, where there is one.
+struct Interval {
+  double value = 0;
+  std::optional<double> low;
+  std::optional<double> high;
+};
+
+// above / below, with Welch's interval on the logarithms: the standard error of log m is s / (m sqrt(n))
+// (delta method), the two add up as if they were independent, with the degrees of freedom of Welch and
+// Satterthwaite. Where both sides use the same seeds they share camera rays, which can only make the interval
+// too wide. Nothing unless both means are positive.
+std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& below);
+
+// exp of `log_value` with the interval that follows from leaving out one seed after the other (delete-one
+// jackknife of two independent samples, Welch-Satterthwaite degrees): `log_above` and `log_below` hold
+// log_value without each seed of either side. A side that is known exactly is empty.
+Interval jackknife(double log_value, const std::vector<double>& log_above,
+                   const std::vector<double>& log_below);
+
+// How long a cell takes to reach an error, read off the mean curve of its seeds.
+std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double target);
+
+struct TimeToError {
+  std::optional<double> target;   // the mean error of the baseline at its end
+  std::optional<Interval> time;   // seconds of the cell; empty if never reached, or before its first snapshot
+  std::optional<Interval> ratio;  // the baseline's mean seconds / time; the target varies with the baseline
+};
+
+// One cell against its baseline.
+struct Ratios {
+  std::string cell;
+  std::string baseline;
+  std::string scene;
+  std::map<std::string, Interval> figures;  // by column of cells.csv
+  TimeToError mse;
+  TimeToError relmse;
+};
+
+// Nothing where the experiment names no baseline. In the order of the cells.
+std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Cell>& cells);
+
+const std::vector<std::string>& ratio_figures();  // columns of cells.csv
+std::vector<Column<Ratios>> ratio_columns();      // of ratios.csv
+
+// A Markdown table of the ratios of one scene, or nothing.
+std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& scene);
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,153 @@
+#include "experiments/records/record_json.h"
+
+#include "engine/core/check.h"
+
+namespace qtrace::experiments {
+namespace {
+
+// Members in a fixed order; version 1 of the layout.
+constexpr int kLayout = 1;
+
+template <class Visitor>
+void visit_fields(Visitor& visit, FrameStatistics& s) {
+  visit(s.paths), visit(s.rays), visit(s.path_segments), visit(s.zero_paths), visit(s.cell_lookups);
+  visit(s.cell_fallbacks), visit(s.non_finite), visit(s.table_updates), visit(s.saturated_updates);
+  visit(s.fireflies), visit(s.clamped_samples);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, FrameRecord& frame) {
+  visit(frame.frame), visit(frame.is_warmup), visit(frame.host_ms), visit(frame.gpu_ms);
+  visit(frame.elapsed_s), visit(frame.gpu_elapsed_s), visit(frame.statistics);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, ReferenceNoise& noise) {
+  visit(noise.mse), visit(noise.relmse);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, ErrorMetrics& e) {
+  visit(e.mse), visit(e.relmse), visit(e.relmse_trimmed), visit(e.mape), visit(e.smape), visit(e.psnr_db);
+  visit(e.flip), visit(e.bias), visit(e.reference), visit(e.non_finite);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, FilteredRecord& filtered) {
+  visit(filtered.errors), visit(filtered.filter_ms);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, SnapshotRecord& snapshot) {
+  visit(snapshot.frame), visit(snapshot.elapsed_s), visit(snapshot.gpu_elapsed_s), visit(snapshot.errors);
+  visit(snapshot.non_finite), visit(snapshot.clamped_samples), visit(snapshot.clamp_bias);
+  visit(snapshot.filtered);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, FireflyRecord& fireflies) {
+  visit(fireflies.energy_fraction), visit(fireflies.brightest);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, Verdict& verdict) {
+  visit(verdict.word), visit(verdict.reason), visit(verdict.mean), visit(verdict.mean_error);
+  visit(verdict.expected), visit(verdict.worst_z);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& visit, RunRecord& record) {
+  visit(record.scene), visit(record.status), visit(record.reason), visit(record.started);
+  visit(record.reference_hash), visit(record.config_hash), visit(record.setup_s), visit(record.frames);
+  visit(record.snapshots), visit(record.fireflies), visit(record.verdict);
+}
+
+template <class T>
+constexpr bool is_value = std::is_arithmetic_v<T> || std::is_same_v<T, std::string>;
+
+// Puts members into an array one after the other.
+class Packer {
+ public:
+  template <class T>
+  void operator()(T& member) {
+    array_.push_back(packed(member));
+  }
+  Json take() { return std::move(array_); }
+
+  template <class T>
+  static Json packed(T& value) {
+    if constexpr (is_value<T>) {
+      return value;
+    } else {
+      Packer inner;
+      visit_fields(inner, value);
+      return inner.take();
+    }
+  }
+  template <class T>
+  static Json packed(std::optional<T>& value) {
+    return value ? Json::array({packed(*value)}) : Json::array();
+  }
+  template <class T>
+  static Json packed(std::vector<T>& values) {
+    Json all = Json::array();
+    for (T& value : values) all.push_back(packed(value));
+    return all;
+  }
+
+ private:
+  Json array_ = Json::array();
+};
+
+class Unpacker {
+ public:
+  explicit Unpacker(const Json& array) : array_(array) {}
+  template <class T>
+  void operator()(T& member) {
+    unpack_value(array_.at(next_++), member);
+  }
+
+  template <class T>
+  static void unpack_value(const Json& json, T& value) {
+    if constexpr (is_value<T>) {
+      json.get_to(value);
+    } else {
+      Unpacker inner(json);
+      visit_fields(inner, value);
+    }
+  }
+  template <class T>
+  static void unpack_value(const Json& json, std::optional<T>& value) {
+    value.reset();
+    if (!json.empty()) unpack_value(json.at(0), value.emplace());
+  }
+  template <class T>
+  static void unpack_value(const Json& json, std::vector<T>& values) {
+    values.clear();
+    values.reserve(json.size());
+    for (const Json& item : json) unpack_value(item, values.emplace_back());
+  }
+
+ private:
+  const Json& array_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Json pack(const RunRecord& record) {
+  RunRecord copy = record;  // visitors take members that can be changed
+  return {{"layout", kLayout}, {"record", Packer::packed(copy)}};
+}
+
+void unpack(const Json& json, RunRecord& record) {
+  try {
+    check(json.at("layout").get<int>() == kLayout, "the record has layout {} where this program reads {}",
+          json.at("layout").get<int>(), kLayout);
+    Unpacker::unpack_value(json.at("record"), record);
+  } catch (const Json::exception& error) {
+    fail("the record of a run cannot be read: {}", error.what());
+  }
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,191 @@
+#include "experiments/records/table.h"
+
+#include "experiments/records/cell_table.h"
+#include "experiments/records/frame_times.h"
+#include "experiments/runtime/manifest.h"
+#include "experiments/records/ratios.h"
+
+#include <algorithm>
+
+namespace qtrace::experiments {
+namespace {
+
+// The cell that differs from `cell` in one label alone: `from` there, `to` here.
+const Cell* counterpart(const Cell& cell, const std::vector<const Cell*>& cells, const std::string& from,
+                        const std::string& to) {
+  std::vector<std::string> wanted = cell.labels;
+  const auto place = std::find(wanted.begin(), wanted.end(), from);
+  if (place == wanted.end()) return nullptr;
+  *place = to;
+  const auto found = std::find_if(cells.begin(), cells.end(),
+                                  [&wanted](const Cell* other) { return other->labels == wanted; });
+  return found == cells.end() ? nullptr : *found;
+}
+
+std::string ratio_line(const Experiment& experiment, const Cell& above, const Cell& below) {
+  std::string line = fmt::format("- {} over {}: ", above.name, below.name);
+  line += above.host_ms && below.host_ms
+              ? fmt::format("{:.3g} × the host time per frame", above.host_ms->median / below.host_ms->median)
+              : "not measured";
+  const double* above_ms = experiment.published.ms_per_frame.find(above.name);
+  const double* below_ms = experiment.published.ms_per_frame.find(below.name);
+  if (above_ms != nullptr && below_ms != nullptr) {
+    line += fmt::format(" (published: {:.2f} ×)", *above_ms / *below_ms);
+  }
+  if (above.relmse_x_s && below.relmse_x_s) {
+    line += fmt::format("; {:.3g} × the relMSE × s", above.relmse_x_s->mean / below.relmse_x_s->mean);
+  }
+  return line + '\n';
+}
+
+std::string ratio_lines(const Experiment& experiment, const std::vector<const Cell*>& cells) {
+  std::string lines;
+  const auto& [above_label, below_label] = experiment.published.ratio;
+  if (above_label.empty() || below_label.empty()) return lines;
+  for (const Cell* cell : cells) {
+    const Cell* below = counterpart(*cell, cells, above_label, below_label);
+    if (below != nullptr) lines += ratio_line(experiment, *cell, *below);
+  }
+  return lines.empty() ? lines : '\n' + lines;
+}
+
+std::string clamping_lines(const std::vector<const Cell*>& cells) {
+  std::string lines;
+  for (const Cell* cell : cells) {
+    if (cell->clamp_radiance == 0) continue;
+    lines += fmt::format(
+        "- {}: clamped (biased): clamp_radiance {:g} scaled down {} samples and changed the mean by {}\n",
+        cell->name, cell->clamp_radiance, cell->clamped_samples, estimate_text(cell->clamp_bias));
+  }
+  return lines.empty() ? lines : '\n' + lines;
+}
+
+std::string reference_lines(const std::map<std::string, Reference>& references) {
+  if (references.empty()) return "";
+  std::string lines = "\nReferences:\n";
+  for (const auto& [hash, reference] : references) {
+    const RenderSettings& settings = reference.spec.settings;
+    lines += fmt::format(
+        "- {}: {} frames of {}×{}, sampler {}, nee {}, lights {}, seed {} ({}), noise in relMSE {:.3g}, in "
+        "MSE {:.3g}, "
+        "hash {}\n",
+        reference.scene, reference.samples, settings.width, settings.height, enum_name(settings.sampler),
+        enum_name(settings.nee), enum_name(settings.lights), settings.seed, reference.origin,
+        reference.noise.relmse, reference.noise.mse, hash);
+    if (const std::string warning = noise_warning(reference); !warning.empty()) {
+      lines += fmt::format("  (Warning: {})\n", warning);
+    }
+    if (reference.non_finite > 0) {
+      lines += fmt::format("  ({} samples of it were not finite and count as 0)\n", reference.non_finite);
+    }
+  }
+  return lines;
+}
+
+// Where the interval of a slope lies beyond this distance from -1, something is worth a look.
+constexpr double kSlopeTolerance = 0.1;
+
+std::string slope_lines(const std::vector<Cell>& cells) {
+  std::string lines;
+  for (const Cell& cell : cells) {
+    for (const char* figure : {"slope_mse", "slope_relmse"}) {
+      const auto found = cell.figures.find(figure);
+      if (found == cell.figures.end() || !found->second.low) continue;
+      const bool is_steep = *found->second.high < -1 - kSlopeTolerance;
+      const bool is_flat = *found->second.low > -1 + kSlopeTolerance;
+      if (!is_steep && !is_flat) continue;
+      lines += fmt::format("- {}: {} against spp {}: {}\n", cell.name, figure, estimate_text(found->second),
+                           is_steep ? "steeper than -1: still learning, or rare bright samples came early"
+                                    : "flatter than -1: biased, heavy-tailed, or near the reference's noise");
+    }
+  }
+  return lines.empty() ? lines : "\nErrors that do not fall as 1/spp:\n" + lines;
+}
+
+std::string time_lines(const std::vector<RunRecord>& records) {
+  const std::string lines = time_warnings(records);
+  return lines.empty() ? lines : "\nTimes to be careful with:\n" + lines;
+}
+
+std::string failure_lines(const std::vector<RunRecord>& records) {
+  std::string lines;
+  for (const RunRecord& record : records) {
+    if (record.status == "failed") lines += fmt::format("- {}: {}\n", record.run.id, record.reason);
+  }
+  return lines.empty() ? lines : "\nFailed runs:\n" + lines;
+}
+
+std::string unfinished_lines(const Experiment& experiment, const std::vector<RunRecord>& records) {
+  const auto partial = std::ranges::count(records, std::string(kPartial), &RunRecord::status);
+  const std::size_t missing = experiment.runs.size() - records.size();
+  if (partial == 0 && missing == 0) return "";
+  return fmt::format(
+      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their cell is "
+      "finished), "
+      "{} not begun, of {}.\n",
+      partial, missing, experiment.runs.size());
+}
+
+std::string verdict_lines(const std::vector<RunRecord>& records) {
+  std::string lines;
+  for (const RunRecord& record : records) {
+    if (!record.verdict || record.verdict->reason.empty()) continue;
+    lines += fmt::format("- {}: {}\n", record.run.id, record.verdict->reason);
+  }
+  return lines.empty() ? lines : "\nRuns that are not as expected:\n" + lines;
+}
+
+std::string notes(const Experiment& experiment) {
+  std::string text = "\n" + timing_note() + "\n\n";
+  const bool seeds = std::any_of(experiment.axes.begin(), experiment.axes.end(),
+                                 [](const Axis& axis) { return axis.is_seed; });
+  text += fmt::format(
+      "ms/frame: median [10th, 90th percentile] over the frames of all seeds. relMSE, s (host time of all "
+      "frames) and their product: at the last frame, mean over seeds{}. Fireflies: samples brighter than "
+      "firefly_multiple times their pixel's reference. Non-finite: samples. At floor: seeds "
+      "whose error is within {} times the reference's own noise.\n",
+      seeds ? " [95 % confidence interval]" : "", kReferenceFloor);
+  if (std::ranges::any_of(experiment.runs,
+                          [](const Run& run) { return run.config.filter.kind != FilterKind::none; })) {
+    text +=
+        "\nRows marked à-trous: the images of the row above after the filter, which is biased. Its time is "
+        "filter_ms in summary.csv and in no other time.\n";
+  }
+  if (!experiment.baseline.empty()) {
+    text +=
+        "\nRatios to the baseline: means over seeds, with 95 % intervals as if the seeds of the two were "
+        "independent. Time to the baseline's relMSE: until the cell's mean error is what the baseline has at "
+        "its "
+        "end, between snapshots by straight lines in the logarithms; '-' where it was never reached, or "
+        "before "
+        "the first snapshot.\n";
+  }
+  if (!experiment.published.source.empty()) text += "\nPublished: " + experiment.published.source + "\n";
+  if (!experiment.published.note.empty()) text += "\n" + experiment.published.note + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string experiment_table(const Experiment& experiment, const std::vector<RunRecord>& records,
+                             const std::map<std::string, Reference>& references, const std::string& device) {
+  const std::vector<Cell> cells = collect_cells(records);
+  std::vector<std::pair<std::string, std::vector<const Cell*>>> scenes;
+  for (const Cell& cell : cells) {
+    auto scene = std::find_if(scenes.begin(), scenes.end(),
+                              [&cell](const auto& entry) { return entry.first == cell.scene; });
+    if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {cell.scene, {}});
+    scene->second.push_back(&cell);
+  }
+  const std::vector<Ratios> ratios = baseline_ratios(experiment, cells);
+  std::string text = fmt::format("# {}\n\nDevice: {}\n", experiment.name, device);
+  for (const auto& [scene, rows] : scenes) {
+    text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
+            ratio_table(ratios, scene) + clamping_lines(rows);
+  }
+  return text + slope_lines(cells) + time_lines(records) + failure_lines(records) +
+         unfinished_lines(experiment, records) + verdict_lines(records) + reference_lines(references) +
+         notes(experiment);
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,70 @@
+#include "experiments/runtime/manifest.h"
+
+#include "experiments/files/atomic_file.h"
+#include "experiments/measure/metrics.h"
+#include "experiments/runtime/version.h"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+
+namespace qtrace::experiments {
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+Json program_json() {
+  return {{"name", "qtrace"}, {"version", version()}, {"commit", commit()}, {"binary", binary_hash()}};
+}
+
+Json device_json(const gpu::DeviceInfo& device) {
+  return {{"renderer", device.renderer},        {"vendor", device.vendor},
+          {"gl_version", device.gl_version},    {"platform", device.platform},
+          {"software", device.software},        {"buffer_fetch", device.fetch},
+          {"work_threads", device.work_threads}};
+}
+
+Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  return {{"file", scene.file.string()},
+          {"from_here", fs::absolute(scene.file)
+                            .lexically_normal()
+                            .lexically_relative(fs::absolute(folder).lexically_normal())
+                            .string()},
+          {"hash", scene.hash},
+          {"triangles", scene.scene.triangles.size()},
+          {"objects", scene.scene.objects.size()},
+          {"materials", scene.scene.materials.size()},
+          {"warnings", scene.scene.warnings}};
+}
+
+Json metrics_json() {
+  Json metrics = Json::array();
+  for (const auto& definitions : {metric_definitions(), run_metric_definitions()}) {
+    for (const MetricDefinition& metric : definitions) {
+      metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
+    }
+  }
+  return metrics;
+}
+
+std::string timing_note() {
+  return "Times hold tracing and, for RL, all learning of each frame; building structures, compiling "
+         "shaders, "
+         "readback, filtering, metrics and files are outside. host: host clock around a frame until its work "
+         "is done; "
+         "gpu: "
+         "GL timestamps around the same. Warm-up frames are in totals and not in medians and percentiles.";
+}
+
+std::string device_text(const gpu::DeviceInfo& device) {
+  return fmt::format("{}, OpenGL {}, {}", device.renderer, device.gl_version,
+                     device.software ? "software: computes on the CPU" : "hardware");
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void write_json(const std::filesystem::path& file, const Json& json) { write_file(file, json_text(json)); }
+
+}  // namespace qtrace::experiments

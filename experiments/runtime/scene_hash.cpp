@@ -1,0 +1,38 @@
+#include "experiments/runtime/scene_hash.h"
+
+#include "experiments/files/hash.h"
+
+namespace qtrace::experiments {
+namespace {
+
+void add_material(Hasher& hasher, const Material& material) {
+  hasher.add(material.base_color);
+  hasher.add(material.metallic);
+  hasher.add(material.roughness);
+  hasher.add(material.specular);
+  hasher.add(material.specular_color);
+  hasher.add(material.emission);
+  hasher.add(material.double_sided);
+}
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene) {
+  static_assert(sizeof(Triangle) == 26 * 4, "padding would make equal triangles hash differently");
+  Hasher hasher;
+  hasher.add(scene.triangles.size());
+  for (const Triangle& triangle : scene.triangles) hasher.add(triangle);
+  hasher.add(scene.materials.size());
+  for (const Material& material : scene.materials) add_material(hasher, material);
+  hasher.add(scene.objects.size());
+  for (const Object& object : scene.objects) {
+    hasher.add(object.first_triangle);
+    hasher.add(object.triangle_count);
+    hasher.add(object.has_uv);
+  }
+  hasher.add(scene.camera.world_from_camera);
+  hasher.add(scene.camera.vertical_fov);
+  return hasher.digest();
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,88 @@
+#include "experiments/study/plan.h"
+
+#include "engine/core/check.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace qtrace::experiments {
+namespace {
+
+// `halvings` before the last round.
+int end_of_round(const RunConfig& config, int halvings) {
+  const std::vector<int> snapshots = config.snapshots.resolve(config.frames);
+  return *std::ranges::lower_bound(snapshots, std::max(1, config.frames >> halvings));
+}
+
+}  // namespace
+
+std::vector<Turn> execution_order(const Experiment& experiment) {
+  std::map<std::string, int> runs_of_cell;
+  std::vector<std::pair<int, std::size_t>> places;  // (repetition, place)
+  for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
+    places.emplace_back(runs_of_cell[experiment.runs[i].cell]++, i);
+  }
+  std::ranges::sort(places);
+  std::vector<Turn> turns;
+  for (const auto& [repetition, place] : places) {
+    turns.push_back({place, static_cast<int>(turns.size()) + 1, repetition});
+  }
+  return turns;
+}
+
+std::vector<Turn> chosen_turns(const Experiment& experiment, const RunChoices& choices) {
+  std::vector<Turn> turns;
+  std::size_t fitting = 0;
+  for (const Turn& turn : execution_order(experiment)) {
+    const std::string& id = experiment.runs[turn.place].id;
+    if (!choices.only.empty() && ::fnmatch(choices.only.c_str(), id.c_str(), 0) != 0) continue;
+    ++fitting;
+    // Dealt out one by one, so that every shard has its share of every cell's repetitions.
+    if (static_cast<std::size_t>(turn.order - 1) % choices.shard.count == choices.shard.index - 1)
+      turns.push_back(turn);
+  }
+  check(fitting > 0, "{}: no run fits --only '{}'; --list shows their names, such as '{}'",
+        experiment.file.string(), choices.only, experiment.runs.front().id);
+  return turns;
+}
+
+std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, int rounds) {
+  std::vector<Step> steps;
+  for (int halvings = rounds - 1; halvings >= 0; --halvings) {
+    for (const Turn& turn : turns) {
+      if (turn.repetition > 0 && halvings > 0) continue;
+      const RunConfig& config = experiment.runs[turn.place].config;
+      const int until = end_of_round(config, halvings);
+      const bool is_first = halvings == rounds - 1 || turn.repetition > 0;
+      if (is_first || end_of_round(config, halvings + 1) < until) steps.push_back({turn, until});
+    }
+  }
+  return steps;
+}
+
+int rounds_for(double seconds, double budget) {
+  int rounds = 1;
+  while (rounds < kMostRounds && std::ldexp(seconds, 1 - rounds) > kFirstRound * budget) ++rounds;
+  return rounds;
+}
+
+std::vector<ReferenceSpec> needed_references(const Experiment& experiment, const std::vector<Turn>& turns,
+                                             SceneStore& scenes) {
+  std::vector<ReferenceSpec> specs;
+  for (const Turn& turn : turns) {
+    const Run& run = experiment.runs[turn.place];
+    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.reference_file(run)).hash);
+    const auto same = std::ranges::find(specs, spec.hash, &ReferenceSpec::hash);
+    if (same == specs.end()) {
+      specs.push_back(std::move(spec));
+    } else {
+      same->wish = same->wish.joined(spec.wish);
+    }
+  }
+  return specs;
+}
+
+}  // namespace qtrace::experiments

@@ -1,0 +1,48 @@
+// Which runs are done, in which order, and what that takes.
+#pragma once
+
+#include "experiments/study/experiment.h"
+#include "experiments/reference/reference.h"
+
+#include <string>
+#include <vector>
+
+namespace qtrace::experiments {
+
+// A run to be done: its place in the config, its turn in the order of execution, from 1.
+struct Turn {
+  std::size_t place = 0;
+  int order = 0;
+  int repetition = 0;  // how many runs of its cell come before
+};
+
+// All runs: the first seed of every cell, then the second of every cell, so that a machine that slows down or
+// speeds up treats all cells alike.
+std::vector<Turn> execution_order(const Experiment& experiment);
+
+// The turns that the choices leave. Throws Error where no run's id fits the pattern.
+std::vector<Turn> chosen_turns(const Experiment& experiment, const RunChoices& choices);
+
+// A turn, or a part of one: up to a frame.
+struct Step {
+  Turn turn;
+  int until = 0;
+};
+
+// The first runs of all cells grow together in `rounds` rounds: up to 1/2, 1/4, ... of their frames before
+// the last, each rounded up to a snapshot, so that whenever time is up every cell has about as much as any
+// other. Further repetitions are done in one go, and so is everything in one round.
+std::vector<Step> steps_of(const Experiment& experiment, const std::vector<Turn>& turns, int rounds);
+
+// How many rounds: as many as bring the first one, of `seconds` for all cells in full, to this share of the
+// budget.
+inline constexpr double kFirstRound = 0.1;
+inline constexpr int kMostRounds = 12;
+int rounds_for(double seconds, double budget);
+
+// Each reference that these runs need, once, and as good as any of them wishes it: its length shall not
+// depend on the order of the runs.
+std::vector<ReferenceSpec> needed_references(const Experiment& experiment, const std::vector<Turn>& turns,
+                                             SceneStore& scenes);
+
+}  // namespace qtrace::experiments

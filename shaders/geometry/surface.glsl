@@ -1,0 +1,73 @@
+// From a hit to a shading point.
+#include "geometry/traverse.glsl"
+
+struct Surface {
+  vec3 position;
+  vec3 geometric_normal;  // unit, towards the viewer
+  vec3 normal;            // unit shading normal, towards the viewer
+  vec3 mesh_normal;       // the shading normal as the mesh has it, out of the front face
+  bool back;              // seen from the back face
+  uint object;
+  uint light;
+  uint material;
+  float offset;           // length by which rays leave the surface
+  vec3 inwards;           // towards the middle of the triangle, about unit length
+};
+
+Surface surface_at(Hit hit, vec3 direction) {
+  vec3 v0 = vertex_of(hit.triangle, 0u);
+  vec3 v1 = vertex_of(hit.triangle, 1u);
+  vec3 v2 = vertex_of(hit.triangle, 2u);
+  vec3 edge1 = v1 - v0;
+  vec3 edge2 = v2 - v0;
+  vec4 n0 = shade_of(hit.triangle, 0u);
+  vec4 n1 = shade_of(hit.triangle, 1u);
+  vec4 n2 = shade_of(hit.triangle, 2u);
+  vec2 b = hit.barycentric;
+
+  Surface s;
+  s.position = v0 + b.x * edge1 + b.y * edge2;
+  s.material = floatBitsToUint(n0.w);
+  s.object = floatBitsToUint(n1.w);
+  s.light = floatBitsToUint(n2.w);
+  // Scaled first: the product of two edges would leave the range of a float at 1e-19 and 1e19 already.
+  float scale = 1.0 / max(max_component(abs(edge1)), max_component(abs(edge2)));
+  vec3 face = normalize(cross(edge1 * scale, edge2 * scale));
+  s.back = dot(face, direction) > 0.0;
+  float side = s.back ? -1.0 : 1.0;
+  s.geometric_normal = side * face;
+  // Opposite vertex normals can cancel: the tolerance is far below any honest interpolated length.
+  vec3 blend = (1.0 - b.x - b.y) * n0.xyz + b.x * n1.xyz + b.y * n2.xyz;
+  float blend_length = length(blend);
+  s.mesh_normal = blend_length > 1e-6 ? blend / blend_length : face;
+  // Where an interpolated normal faces away from the ray, the geometric one is used.
+  if (side * dot(s.mesh_normal, direction) >= 0.0) s.mesh_normal = face;
+  s.normal = side * s.mesh_normal;
+  s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));
+  s.inwards = scale * ((edge1 + edge2) * (1.0 / 3.0) - (s.position - v0));
+  return s;
+}
+
+// Where a ray towards `direction` starts: off the surface on the side that it leaves to, and off the triangle's
+// edges, where rounding may have put the point on or behind a wall that meets this one there.
+vec3 ray_origin(Surface s, vec3 direction) {
+  float side = dot(s.geometric_normal, direction) < 0.0 ? -1.0 : 1.0;
+  return s.position + s.offset * (side * s.geometric_normal + s.inwards);
+}
+
+// Radiance that the surface emits towards its viewer; from the front face, unless double-sided.
+vec3 emitted_radiance(Surface s) {
+  vec4 emission = emission_of(s.material);
+  return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;
+}
+
+// Orthonormal basis about n: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).
+vec3 tangent_of(vec3 n) {
+  float sign_z = n.z < 0.0 ? -1.0 : 1.0;
+  float a = -1.0 / (sign_z + n.z);
+  return vec3(1.0 + sign_z * n.x * n.x * a, sign_z * n.x * n.y * a, -sign_z * n.x);
+}
+
+vec3 to_world(vec3 local, vec3 tangent, vec3 normal) {
+  return local.x * tangent + local.y * cross(normal, tangent) + local.z * normal;
+}

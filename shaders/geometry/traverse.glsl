@@ -1,0 +1,30 @@
+// Ray queries.
+#include "shared/variants.glsl"
+#include "geometry/intersect.glsl"
+#ifndef BVH
+#define BVH BVH_SAH
+#endif
+#if BVH == BVH_THREADED
+#include "geometry/traverse_threaded.glsl"
+#else
+#include "geometry/wide_nodes.glsl"
+#if FETCH == FETCH_IMAGE
+#include "geometry/traverse_registers.glsl"
+#else
+#include "geometry/traverse_ordered.glsl"
+#endif
+#endif
+
+// The nearest hit at t in (0, infinity); `direction` need not be unit.
+Hit closest_hit(vec3 origin, vec3 direction) {
+  Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));
+  traverse(origin, direction, false, hit);
+  return hit;
+}
+
+// Whether anything stands at t in (0, 1).
+bool is_occluded(vec3 origin, vec3 direction) {
+  Hit hit = Hit(1.0, NO_TRIANGLE, vec2(0.0));
+  traverse(origin, direction, true, hit);
+  return hit.triangle != NO_TRIANGLE;
+}

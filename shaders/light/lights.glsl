@@ -1,0 +1,91 @@
+// Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then one
+// of its triangles by power; then a point uniform on it.
+#include "sampling/random.glsl"
+#include "geometry/surface.glsl"
+#ifdef HAS_TABLE
+#include "learning/cells.glsl"
+#include "learning/columns.glsl"
+#endif
+
+struct LightSample {
+  vec3 direction;     // from the surface to the point, unit
+  vec3 radiance;      // towards the surface
+  float pdf;          // per solid angle, the choice of the light included
+  float probability;  // of that choice
+  uint light;
+  vec3 origin;        // shadow ray, from the light: neighbouring ones share more of their way than from the surface
+  vec3 segment;       // to the surface, over t in (0, 1)
+};
+
+// Walker's alias method: one look-up whatever the number of slots. The product of word and count holds the
+// slot in its high word and the fraction in its low one, so that no digit serves twice.
+uint alias_slot(uint word, uint count, out uint fraction) {
+  uint slot;
+  umulExtended(word, count, slot, fraction);
+  return slot;
+}
+
+// `cell`: that of the surface, NO_CELL where it has none.
+uint choose_light(int cell, uint word) {
+#if LIGHT_COLUMNS > 0
+  if (cell != NO_CELL) return choose_column(first_light(uint(cell)), uint(LIGHT_COLUMNS), word).column;
+#endif
+  uint fraction;
+  uint slot = alias_slot(word, parameters.path.z, fraction);
+  uvec4 link = light_link(slot);
+  return fraction <= link.z ? slot : link.x;
+}
+
+float light_probability(int cell, uint light) {
+#if LIGHT_COLUMNS > 0
+  if (cell != NO_CELL) return column_probability(first_light(uint(cell)), uint(LIGHT_COLUMNS), light);
+#endif
+  return light_choice(light).x;
+}
+
+uint choose_triangle(uint light, uint word) {
+  uint fraction;
+  uvec4 range = light_link(light);
+  uint triangle = range.y + alias_slot(word, range.w, fraction);
+  uvec4 link = light_triangle(triangle).link;
+  return fraction <= link.z ? triangle : link.x;
+}
+
+// Density per solid angle, seen from distance `t` under `direction`, of the choice of this point on its light.
+float point_pdf(LightTriangle triangle, float t, vec3 direction) {
+  float cosine = abs(dot(triangle.normal.xyz, direction));
+  return cosine > 0.0 ? triangle.edge2.w * t * t / cosine : 0.0;
+}
+
+// The same with the choice of the light, from a surface in `cell`.
+float light_pdf(int cell, uint index, float t, vec3 direction) {
+  LightTriangle triangle = light_triangle(index);
+  return light_probability(cell, triangle.link.y) * point_pdf(triangle, t, direction);
+}
+
+// pdf is 0 where the point cannot send light here.
+LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
+  LightSample result;
+  result.light = choose_light(cell, bits.x);
+  result.probability = light_probability(cell, result.light);
+  LightTriangle triangle = light_triangle(choose_triangle(result.light, triangle_word));
+  float root = sqrt(to_unit(bits.y));
+  float along = to_unit(bits.z);
+  vec3 point = triangle.vertex.xyz + root * (1.0 - along) * triangle.edge1.xyz +
+               root * along * triangle.edge2.xyz;
+  vec3 to_point = point - s.position;
+  float t = length(to_point);
+  vec3 normal = triangle.normal.xyz;
+
+  result.direction = to_point / t;
+  float facing = -dot(normal, result.direction);
+  bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != 0.0));
+  result.radiance = lit ? triangle.radiance.rgb : vec3(0.0);
+  result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
+  // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
+  // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.
+  result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
+  s.offset = max(s.offset, OFFSET_FRACTION * t);
+  result.segment = ray_origin(s, result.direction) - result.origin;
+  return result;
+}

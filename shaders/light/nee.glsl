@@ -1,0 +1,123 @@
+// Next event estimation: direct light of a scattering event by sampling the lights.
+#include "light/lights.glsl"
+#include "sampling/direction.glsl"
+#include "shared/statistics.glsl"
+
+// What a path has cost and taught so far.
+struct Tally {
+  uint rays;
+  uint segments;
+  uint lookups;
+  uint fallbacks;
+  uint updates;
+  uint saturated;
+};
+
+// Power heuristic with exponent 2 for one sample of each (Veach 1997, section 9.2.4), kept from overflow.
+float power_heuristic(float pdf, float other) {
+  float ratio = other / pdf;
+  return 1.0 / (1.0 + ratio * ratio);
+}
+
+// The lesson of a light sample, hidden ones included: the square of what it contributes once its light is chosen.
+// Choosing lights by the root of its mean minimises the variance of one choice (Kahn & Marshall 1953); Vevoda,
+// Kondapaneni & Krivanek 2018 and Pantaleoni 2019 learn lights in this way. MIS weights are left out: they depend
+// on the choice itself.
+void learn_light(Event e, LightSample light, vec3 contribution, inout Tally tally) {
+#if LIGHT_COLUMNS > 0
+  float part = average(contribution) * light.probability * parameters.environment.w;
+  if (frame_teaches != 0u && e.cell.index != NO_CELL && is_finite(part)) {
+    ++tally.updates;
+    uint entry = first_light(uint(e.cell.index)) + light.light;
+    if (gather_light_target(entry, part * part)) ++tally.saturated;
+  }
+#endif
+}
+
+#if NEE != NEE_NONE
+
+LightSample sample_event_light(Event e, RandomKey key, uint block) {
+  return sample_light(e.surface, cell_of(e), random_bits(key, block + BLOCK_LIGHT),
+                      random_bits(key, block + BLOCK_MORE).x);
+}
+
+#endif
+
+#if NEE == NEE_ONE_RAY
+
+// One light sample, weighted against the path's own sampler, which meets the same lights by its next ray.
+vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
+  LightSample light = sample_event_light(e, key, block);
+  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
+  vec3 contribution = vec3(0.0);
+  if (light.pdf > 0.0 && reflected != vec3(0.0)) {
+    ++tally.rays;
+    if (!is_occluded(light.origin, light.segment)) contribution = reflected / light.pdf;
+  }
+  learn_light(e, light, contribution, tally);
+  if (contribution == vec3(0.0)) return contribution;
+  return contribution * power_heuristic(light.pdf, direction_pdf(e, light.direction));
+}
+
+// Weight of emission that the path's own ray met, which left a surface in `cell`.
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+  return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));
+}
+
+#elif NEE == NEE_TWO_RAY
+
+// The report's BSDF sample: what it meets counts where it is the light that was chosen. Environment is met too.
+vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
+  vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, u.yz, u.w);
+  float pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+  vec3 weight = bsdf_cosine(e.surface, e.bsdf, e.wo, wi) / pdf;
+  vec3 result = vec3(0.0);
+  if (pdf > 0.0 && weight != vec3(0.0)) {
+    ++tally.rays;
+    Hit hit = closest_hit(ray_origin(e.surface, wi), wi);
+    if (hit.triangle == NO_TRIANGLE) {
+      result = weight * parameters.environment.rgb;
+    } else {
+      Surface other = surface_at(hit, wi);
+      LightTriangle triangle = light_triangle(other.light == NO_LIGHT ? 0u : other.light);
+      if (other.light != NO_LIGHT && triangle.link.y == light.light) {
+        float heuristic = power_heuristic(pdf, point_pdf(triangle, hit.t, wi));
+        result = weight * emitted_radiance(other) * heuristic / light.probability;
+      }
+    }
+  }
+  return result;
+}
+
+// The report's: a light sample and a BSDF sample towards the same light, power heuristic, both tested by a closest
+// hit. The path's own rays count no emission.
+vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
+  LightSample light = sample_event_light(e, key, block);
+  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
+  vec3 contribution = vec3(0.0);
+  if (light.pdf > 0.0 && reflected != vec3(0.0)) {
+    ++tally.rays;
+    if (closest_hit(light.origin, light.segment).t >= 1.0) contribution = reflected / light.pdf;
+  }
+  learn_light(e, light, contribution, tally);
+  vec3 result = bsdf_light(e, light, random_units(key, block + BLOCK_TWO_RAY), tally);
+  if (contribution == vec3(0.0)) return result;
+  float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);
+  return result + contribution * power_heuristic(light.pdf / light.probability, other);
+}
+
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+  return 0.0;
+}
+
+#else
+
+vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
+  return vec3(0.0);
+}
+
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+  return 1.0;
+}
+
+#endif

@@ -1,0 +1,104 @@
+#version 450 core
+// Adds a frame's samples to the sums of their pixels, and its counts to the statistics.
+#include "geometry/scene.glsl"
+#include "shared/statistics.glsl"
+#include "passes/pixel_sum.glsl"
+
+layout(local_size_x = 64) in;
+FETCHED_UVEC4(samples, UNIT_SAMPLES);  // two elements for each pixel
+// What is stored is fetched too, as loads of scalars from storage are the slowest on llvmpipe: pixels belong to one
+// invocation, which fetches before it stores.
+FETCHED_UVEC4(outlier_texels, UNIT_OUTLIERS);  // two elements for each pixel
+FETCHED_UVEC4(sum_texels, UNIT_SUMS);          // three elements for each pixel, two numbers in each
+layout(std430, binding = BINDING_SUMS) writeonly buffer SumBuffer { uvec4 sum_words[]; };
+layout(std430, binding = BINDING_OUTLIERS) buffer OutlierBuffer { PixelOutliers outliers[]; };
+
+shared uint group_counts[STATISTIC_PER_FRAME];
+
+// What this invocation's pixels add.
+uint fireflies = 0u;
+uint clamped_samples = 0u;
+uint counts[STATISTIC_NON_FINITE];  // those before it
+
+void judge_firefly(uint index, vec3 radiance) {
+  float brightness = average(radiance);
+  if (brightness <= uintBitsToFloat(fetch(outlier_texels, 2u * index + 1u).x)) return;
+  ++fireflies;
+  outliers[index].firefly_sum += double(brightness);
+  ++outliers[index].fireflies;
+  if (brightness <= outliers[index].brightest) return;
+  outliers[index].brightest = brightness;
+  outliers[index].brightest_frame = frame_number;
+}
+
+// The sample, scaled down where its largest channel exceeds clamp_radiance; hue is kept.
+vec3 clamped(uint index, vec3 radiance) {
+  float limit = parameters.film.x;
+  float largest = max_component(radiance);
+  if (limit == 0.0 || largest <= limit) return radiance;
+  vec3 kept = radiance / largest * limit;
+  dvec3 removed = dvec3(radiance) - dvec3(kept);
+  outliers[index].clamped_away += (removed.r + removed.g + removed.b) / 3.0;
+  ++clamped_samples;
+  return kept;
+}
+
+void count_sample(uvec4 tally, bool is_zero) {
+  counts[STATISTIC_RAYS] += tally.x;
+  counts[STATISTIC_SEGMENTS] += tally.y;
+  counts[STATISTIC_ZERO_PATHS] += is_zero ? 1u : 0u;
+  counts[STATISTIC_LOOKUPS] += tally.z & 0xffffu;
+  counts[STATISTIC_FALLBACKS] += tally.z >> 16u;
+  counts[STATISTIC_UPDATES] += tally.w & 0xffffu;
+  counts[STATISTIC_SATURATED] += tally.w >> 16u;
+}
+
+void add_sample(uint index, vec3 radiance) {
+  uvec4 a = fetch(sum_texels, 3u * index);
+  uvec4 b = fetch(sum_texels, 3u * index + 1u);
+  uvec4 c = fetch(sum_texels, 3u * index + 2u);
+  PixelSum sum = with_sample(PixelSum(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b.xy),
+                                      packDouble2x32(b.zw), packDouble2x32(c.xy), packDouble2x32(c.zw)), radiance);
+  sum_words[3u * index] = uvec4(unpackDouble2x32(sum.r), unpackDouble2x32(sum.g));
+  sum_words[3u * index + 1u] = uvec4(unpackDouble2x32(sum.b), unpackDouble2x32(sum.r_squared));
+  sum_words[3u * index + 2u] = uvec4(unpackDouble2x32(sum.g_squared), unpackDouble2x32(sum.b_squared));
+}
+
+void add_pixel(uint index) {
+  vec3 radiance = uintBitsToFloat(fetch(samples, 2u * index).rgb);
+  bool finite = is_finite(radiance.r) && is_finite(radiance.g) && is_finite(radiance.b);
+  if (finite) {
+    judge_firefly(index, radiance);
+    add_sample(index, clamped(index, radiance));
+  } else {
+    report_non_finite(uvec2(index % parameters.image.x, index / parameters.image.x), frame_number);
+  }
+  count_sample(fetch(samples, 2u * index + 1u), radiance == vec3(0.0));
+}
+
+// Each invocation takes every 64th of its group's pixels: counts are then shared once for all of them.
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  if (lane < STATISTIC_PER_FRAME) group_counts[lane] = 0u;
+  for (uint i = 0u; i < STATISTIC_NON_FINITE; ++i) counts[i] = 0u;
+  barrier();
+  uint pixels = parameters.image.x * parameters.image.y;
+  uint index = gl_WorkGroupID.x * ACCUMULATE_GROUP_PIXELS + lane;
+  uint end = min(index + ACCUMULATE_GROUP_PIXELS, pixels);
+  bool more = index < end;
+  do {
+    if (more) {
+      add_pixel(index);
+      index += 64u;
+      more = index < end;
+    }
+  } while (more);
+  if (more) report_cut(uvec2(index, 0u));
+  for (uint i = 0u; i < STATISTIC_NON_FINITE; ++i) {
+    if (counts[i] != 0u) atomicAdd(group_counts[i], counts[i]);
+  }
+  if (fireflies != 0u) atomicAdd(group_counts[STATISTIC_FIREFLIES], fireflies);
+  if (clamped_samples != 0u) atomicAdd(group_counts[STATISTIC_CLAMPED], clamped_samples);
+  barrier();
+  if (lane < STATISTIC_PER_FRAME) count(lane, group_counts[lane]);
+}

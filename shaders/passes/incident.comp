@@ -1,0 +1,52 @@
+#version 450 core
+// What arrives from all directions at the surface behind the centre of pixel (PIXEL_X, PIXEL_Y), which belongs to a
+// cell: the hemisphere about its normal as a square image of HEMISPHERE_SIZE, one path for each pixel of it.
+#include "shared/variants.glsl"
+#include "sampling/random.glsl"
+// Before the paths, which have no table here and would leave these out.
+#include "learning/cells.glsl"
+#include "learning/bins.glsl"
+#include "passes/path.glsl"
+#include "geometry/camera.glsl"
+#include "shared/statistics.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer IncidentBuffer { Incident incidents[]; };
+
+// Of the unit disk that the image shows: x along the cell's tangent, y upwards.
+vec2 to_disk(vec2 position) {
+  vec2 p = position * (2.0 / float(HEMISPHERE_SIZE)) - 1.0;
+  return vec2(p.x, -p.y);
+}
+
+// Lambert's azimuthal equal-area projection, the horizon at radius 1 (Snyder 1987, "Map Projections - A Working
+// Manual", p. 185): equal areas of the disk are equal solid angles.
+vec3 from_disk(vec2 p) {
+  float r2 = dot(p, p);
+  return vec3(p * sqrt(max(0.0, 2.0 - r2)), 1.0 - r2);
+}
+
+uint bin_on_disk(vec2 p) {
+  return dot(p, p) < 1.0 ? bin_of(from_disk(p)) : NO_BIN;
+}
+
+vec3 incident_radiance(RandomKey key, Surface s, vec3 local) {
+  vec3 direction = to_world(local, find_cell(s).tangent, s.normal);
+  vec3 radiance = trace(key, ray_origin(s, direction), direction).radiance;
+  return is_finite(average(radiance)) ? radiance : vec3(0.0);
+}
+
+void main() {
+  uvec2 pixel = pixel_of_invocation();
+  if (any(greaterThanEqual(pixel, uvec2(HEMISPHERE_SIZE)))) return;
+  uint index = pixel.y * uint(HEMISPHERE_SIZE) + pixel.x;
+  RandomKey key = RandomKey(index, frame_number, parameters.image.z);
+  vec3 view = camera_direction(vec2(PIXEL_X, PIXEL_Y) + 0.5);
+  Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, view), view);
+  vec2 p = to_disk(vec2(pixel) + random_units(key, BLOCK_CAMERA).xy);
+  uint bin = bin_on_disk(p);
+  vec3 radiance = bin == NO_BIN ? vec3(0.0) : incident_radiance(key, s, from_disk(p));
+  incidents[index].radiance = vec4(radiance, bin == NO_BIN ? 0.0 : bin_cosine(bin));
+  incidents[index].bins = uvec4(bin_on_disk(to_disk(vec2(pixel) + 0.5)), bin, 0u, 0u);
+  if (loop_was_cut) report_cut(pixel);
+}

@@ -1,0 +1,101 @@
+#version 450 core
+// The table before anything is learned. One invocation per cell.
+#include "shared/variants.glsl"
+#include "geometry/scene.glsl"
+#include "sampling/random.glsl"
+#include "learning/table.glsl"
+#include "shared/statistics.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_Q_VALUES) restrict writeonly buffer QValueBuffer { float q_values[]; };
+layout(std430, binding = BINDING_Q_VISITS) restrict writeonly buffer QVisitBuffer { uint q_visits[]; };
+layout(std430, binding = BINDING_CELL_PLACES) restrict readonly buffer CellPlaceBuffer { CellPlace places[]; };
+
+// Apart from the random numbers of the paths, whose frames count from 1.
+const uint FRAME_OF_TABLE = 0u;
+
+#if SAMPLER == SAMPLER_RL
+
+float initial_value(uint cell, uint bin) {
+#if INITIAL_TABLE == INITIAL_CONSTANT
+  return parameters.learning.z;
+#elif INITIAL_TABLE == INITIAL_RANDOM
+  return parameters.learning.z * random_units(RandomKey(cell, FRAME_OF_TABLE, parameters.image.z), bin).x;
+#elif INITIAL_TABLE == INITIAL_COSINE
+  return parameters.learning.z * bin_cosine(bin);
+#else
+  return 0.0;
+#endif
+}
+
+void initialize_bins(uint cell) {
+  uint bin = 0u;
+  do {
+    q_values[first_bin(cell) + bin] = initial_value(cell, bin);
+    q_visits[first_bin(cell) + bin] = 0u;
+    ++bin;
+  } while (bin < uint(BINS));
+  loop_was_cut = loop_was_cut || bin < uint(BINS);
+}
+
+#endif
+
+#if LIGHT_COLUMNS > 0
+
+// A cell is no point and no plane: surfaces in it may face a light that its middle does not.
+const float LEAST_COSINE = 0.1;
+const float GUESSED_ALBEDO = 0.5;
+
+// The square of what a light contributes if nothing hides it, seen from the cell's middle, in units of the brightest
+// light: as the prior of Vevoda, Kondapaneni & Krivanek 2018, from a point for the light. What has no axis shows a
+// quarter of its area to all sides.
+float guess(uint cell, uint light) {
+  vec3 to_light = light_centre(light).xyz - places[cell].position.xyz;
+  float distance2 = max(dot(to_light, to_light), 1e-30);
+  vec3 direction = to_light * inversesqrt(distance2);
+  vec3 axis = light_axis(light).xyz;
+  float area = light_centre(light).w;
+  float shown = max(-dot(axis, direction), LEAST_COSINE * length(axis)) + 0.25 * max(1.0 - length(axis), 0.0);
+  float cosine = max(dot(places[cell].normal.xyz, direction), LEAST_COSINE);
+  float contribution =
+      GUESSED_ALBEDO / PI * light_axis(light).w * area * shown * cosine / (distance2 + area);
+  return contribution * contribution;
+}
+
+void initialize_lights(uint cell) {
+  uint light = 0u;
+  do {
+    q_values[first_light(cell) + light] = parameters.learning.w > 0.0 ? guess(cell, light) : 0.0;
+    q_visits[first_light(cell) + light] = uint(parameters.learning.w);
+    ++light;
+  } while (light < uint(LIGHT_COLUMNS));
+  loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
+}
+
+#endif
+
+#ifdef LEARNS_MIXTURE
+
+void initialize_mixture(uint cell) {
+  for (uint side = SHARE_BSDF; side <= SHARE_TABLE; ++side) {
+    q_values[first_share(cell) + side] = 0.0;
+    q_visits[first_share(cell) + side] = 0u;
+  }
+}
+
+#endif
+
+void main() {
+  uint cell = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
+  if (cell >= parameters.path.w) return;
+#if SAMPLER == SAMPLER_RL
+  initialize_bins(cell);
+#endif
+#ifdef LEARNS_MIXTURE
+  initialize_mixture(cell);
+#endif
+#if LIGHT_COLUMNS > 0
+  initialize_lights(cell);
+#endif
+  if (loop_was_cut) report_cut(uvec2(cell, 0u));
+}

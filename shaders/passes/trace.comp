@@ -1,0 +1,24 @@
+#version 450 core
+// One sample per pixel: a path from the camera, at most max_bounces scattering events.
+#include "shared/variants.glsl"
+#include "sampling/random.glsl"
+#include "passes/path.glsl"
+#include "geometry/camera.glsl"
+#include "shared/statistics.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_SAMPLES) restrict writeonly buffer SampleBuffer { PixelSample samples[]; };
+
+void main() {
+  uvec2 pixel = pixel_of_invocation();
+  if (any(greaterThanEqual(pixel, parameters.image.xy))) return;
+  uint index = pixel.y * parameters.image.x + pixel.x;
+  RandomKey key = RandomKey(index, frame_number, parameters.image.z);
+  vec2 jitter = random_units(key, BLOCK_CAMERA).xy;
+  Path path = trace(key, parameters.camera_origin.xyz, camera_direction(vec2(pixel) + jitter));
+  samples[index].radiance = vec4(path.radiance, 0.0);
+  samples[index].counts = uvec4(path.tally.rays, path.tally.segments,
+                                path.tally.lookups | (path.tally.fallbacks << 16u),
+                                path.tally.updates | (path.tally.saturated << 16u));
+  if (loop_was_cut) report_cut(pixel);
+}
