@@ -115,10 +115,10 @@ void Film::set_firefly_thresholds(std::span<const float> thresholds) {
 
 void Film::check_loops() const { check_loops_of(read_block(statistics_)); }
 
-FrameStatistics Film::statistics() const {
+FrameCounters Film::statistics() const {
   const gpu::Statistics block = read_block(statistics_);
   check_loops_of(block);
-  FrameStatistics s;
+  FrameCounters s;
   s.paths = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
   s.rays = counter(block, gpu::STATISTIC_RAYS);
   s.path_segments = counter(block, gpu::STATISTIC_SEGMENTS);

@@ -4,7 +4,7 @@
 #include "engine/core/image.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/program_cache.h"
-#include "engine/tracer/statistics.h"
+#include "engine/tracer/counters.h"
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ class Film {
   void set_firefly_thresholds(std::span<const float> thresholds);
 
   // These wait for enqueued work and throw Error where the driver cut a loop of a shader short.
-  FrameStatistics statistics() const;
+  FrameCounters statistics() const;
   std::vector<NonFiniteSample> non_finite_samples() const;  // ordered by frame, then position
   Outliers outliers() const;
   RadianceImage radiance(std::uint32_t frames) const;

@@ -159,7 +159,7 @@ void Tracer::render_frame() {
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
 
-FrameStatistics Tracer::last_frame_statistics() const { return state_->film.statistics(); }
+FrameCounters Tracer::last_frame_counters() const { return state_->film.statistics(); }
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
 

@@ -6,7 +6,7 @@
 #include "engine/gpu/context.h"
 #include "engine/scene/scene.h"
 #include "engine/tracer/qtable.h"
-#include "engine/tracer/statistics.h"
+#include "engine/tracer/counters.h"
 #include "engine/tracer/tracer_state.h"
 
 #include <array>
@@ -39,7 +39,7 @@ class Tracer {
   std::uint32_t frames() const;
 
   // The readers below wait for enqueued work.
-  FrameStatistics last_frame_statistics() const;
+  FrameCounters last_frame_counters() const;
   std::vector<NonFiniteSample> non_finite_samples() const;  // some of all frames so far, at most 64
   Outliers outliers() const;                                // fireflies and clamping over all frames so far
   RadianceImage radiance() const;                           // mean and its variance over all frames

@@ -25,10 +25,10 @@ bool check_config(const std::string& file, const ConfigOptions& options, const g
   }
   for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
   if (!errors.empty()) return false;
-  std::set<std::string> cells;
-  for (const Run& run : experiment.runs) cells.insert(run.cell);
-  fmt::print("{}: good: '{}', runs: {}, cells: {}\n", file, experiment.name, experiment.runs.size(),
-             cells.size());
+  std::set<std::string> configurations;
+  for (const Run& run : experiment.runs) configurations.insert(run.configuration);
+  fmt::print("{}: good: '{}', runs: {}, configurations: {}\n", file, experiment.name, experiment.runs.size(),
+             configurations.size());
   return true;
 }
 

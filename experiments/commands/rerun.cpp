@@ -56,7 +56,7 @@ fs::path scene_file(const Json& scene, const fs::path& manifest) {
 Run run_of(const Json& manifest, const fs::path& file) {
   Run run;
   run.id = part(manifest, "run", file).get<std::string>();
-  run.cell = part(manifest, "cell", file).get<std::string>();
+  run.configuration = part(manifest, "configuration", file).get<std::string>();
   try {
     read_knobs(part(manifest, "config", file), run.config);
   } catch (const Error& error) {

@@ -139,7 +139,7 @@ void add_run_command(CLI::App& app, RunOptions& options) {
       "--shard", options.shard,
       "i/n: only the i-th of n parts of the runs; the parts may run at the same time, and --merge ends them");
   run->add_option("--time-budget", options.time_budget,
-                  "stops after this time, such as 8h or 90min, with all cells about as far as each other")
+                  "stops after this time, such as 8h or 90min, with all configurations about as far as each other")
       ->transform(CLI::Validator(parse_duration, "TIME"));
   run->add_flag("--fresh", choices.fresh, "puts earlier results aside instead of going on with them");
   run->add_flag("--fail-fast", choices.fail_fast, "stops at the first run that fails");

@@ -88,7 +88,7 @@ void drop_schema(Json& config) {
 }
 
 Run make_run(const SweepPoint& point, const RunConfig& base) {
-  Run run{point.id, point.cell, point.labels, base};
+  Run run{point.id, point.configuration, point.labels, base};
   try {
     read_knobs(point.overrides, run.config);
     check_run_config(run.config);
@@ -100,10 +100,10 @@ Run make_run(const SweepPoint& point, const RunConfig& base) {
 
 void check_published(Experiment& experiment) {
   constexpr std::size_t kMostWarnings = 10;
-  std::set<std::string> cells;
+  std::set<std::string> configurations;
   std::set<std::string> labels;
   for (const Run& run : experiment.runs) {
-    cells.insert(run.cell);
+    configurations.insert(run.configuration);
     labels.insert(run.labels.begin(), run.labels.end());
   }
   std::size_t unknown = 0;
@@ -116,7 +116,7 @@ void check_published(Experiment& experiment) {
     if (name.empty() || known.contains(name) || ++unknown > kMostWarnings) return;
     warn(fmt::format("'{}'", name), suggestion(name, {known.begin(), known.end()}));
   };
-  for (const auto& [cell, ms] : experiment.published.ms_per_frame.by_cell) warn_unless_known(cell, cells);
+  for (const auto& [configuration, ms] : experiment.published.ms_per_frame.by_configuration) warn_unless_known(configuration, configurations);
   for (const std::string& label : experiment.published.ratio) warn_unless_known(label, labels);
   if (unknown > kMostWarnings) warn(fmt::format("{} more", unknown - kMostWarnings), "");
 }
@@ -131,13 +131,13 @@ void check_baseline(const Experiment& experiment) {
     for (const AxisValue& value : axis.values) names.push_back(value.label);
     axes += std::ranges::count(axis.values, experiment.baseline, &AxisValue::label) > 0 ? 1 : 0;
   }
-  check(axes < 2, "key 'baseline' is '{}', a label of {} axes; name a whole cell instead",
+  check(axes < 2, "key 'baseline' is '{}', a label of {} axes; name a whole configuration instead",
         experiment.baseline, axes);
   for (const Run& run : experiment.runs) {
-    if (names.empty() || names.back() != run.cell) names.push_back(run.cell);  // seeds follow each other
+    if (names.empty() || names.back() != run.configuration) names.push_back(run.configuration);  // seeds follow each other
   }
   check(std::ranges::find(names, experiment.baseline) != names.end(),
-        "key 'baseline' is '{}' but must be a label or a cell of the sweep{}", experiment.baseline,
+        "key 'baseline' is '{}' but must be a label or a configuration of the sweep{}", experiment.baseline,
         suggestion(experiment.baseline, names));
 }
 

@@ -27,8 +27,8 @@ void visit_knobs(Visitor& visit, ExperimentKeys& keys) {
         keys.sweep);
   visit(KnobInfo{"published", "", "figures of a publication for the table"}, keys.published);
   visit(KnobInfo{"baseline", "",
-                 "a label of one axis, or a cell (axis labels joined by ' / '): ratios.csv compares with it "
-                 "every cell that differs from it in one label alone; empty: no ratios"},
+                 "a label of one axis, or a configuration (axis labels joined by ' / '): ratios.csv compares with it "
+                 "every configuration that differs from it in one label alone; empty: no ratios"},
         keys.baseline);
   visit(KnobInfo{"preset", "",
                  "a file with settings of a run, relative to the config; what the config sets itself "
@@ -38,7 +38,7 @@ void visit_knobs(Visitor& visit, ExperimentKeys& keys) {
 
 struct Run {
   std::string id;
-  std::string cell;
+  std::string configuration;
   std::vector<std::string> labels;  // one per axis
   RunConfig config;
 };

@@ -10,11 +10,11 @@
 
 namespace qtrace::experiments {
 
-// Milliseconds per frame by cell ("simple / RL").
+// Milliseconds per frame by configuration ("simple / RL").
 struct PublishedTimes {
-  std::vector<std::pair<std::string, double>> by_cell;
+  std::vector<std::pair<std::string, double>> by_configuration;
 
-  const double* find(const std::string& cell) const;  // null where nothing was published
+  const double* find(const std::string& configuration) const;  // null where nothing was published
 };
 
 template <>
@@ -36,7 +36,7 @@ template <class Visitor>
 void visit_knobs(Visitor& visit, Published& published) {
   visit(KnobInfo{"source", "", "where the figures come from"}, published.source);
   visit(KnobInfo{"note", "", "one sentence on what is comparable; the table ends with it"}, published.note);
-  visit(KnobInfo{"ms_per_frame", "ms", "published times by cell: axis labels joined by ' / '"},
+  visit(KnobInfo{"ms_per_frame", "ms", "published times by configuration: axis labels joined by ' / '"},
         published.ms_per_frame);
   visit(KnobInfo{"ratio", "", "two labels of one axis: the table shows first / second"}, published.ratio);
 }

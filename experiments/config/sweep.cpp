@@ -113,12 +113,12 @@ SweepPoint make_point(const std::vector<Axis>& axes, const std::vector<std::size
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisValue& value = axes[i].values[choice[i]];
     point.id += (i == 0 ? "" : ",") + slug(axes[i].name) + '=' + value.slug;
-    if (!axes[i].is_seed) point.cell += (point.cell.empty() ? "" : " / ") + value.label;
+    if (!axes[i].is_seed) point.configuration += (point.configuration.empty() ? "" : " / ") + value.label;
     point.labels.push_back(value.label);
     merge(point.overrides, value.overrides);
   }
   if (axes.empty()) point.id = "run";
-  if (point.cell.empty()) point.cell = "all";
+  if (point.configuration.empty()) point.configuration = "all";
   return point;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/tracer/statistics.h"
+#include "engine/tracer/counters.h"
 #include "experiments/files/json.h"
 #include "experiments/records/records.h"
 

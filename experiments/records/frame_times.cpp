@@ -26,7 +26,7 @@ double scaled_mad(const std::vector<double>& values, double middle) {
 using Work = std::pair<bool, bool>;
 
 Work work_of(const FrameRecord& frame) {
-  return {frame.statistics.cell_lookups > 0, frame.statistics.table_updates > 0};
+  return {frame.counters.cell_lookups > 0, frame.counters.table_updates > 0};
 }
 
 std::string noise_warning(const std::vector<RunRecord>& records) {
@@ -50,7 +50,7 @@ std::string noise_warning(const std::vector<RunRecord>& records) {
       "The machine was noisy in {} of {} runs (frame times per ray: interquartile range above {:g} % of the "
       "median, or more than {:g} % outliers; worst {} with {:.3g} %): close other programs, raise frames or "
       "seeds, "
-      "and rather read ratios, as cells took turns.",
+      "and rather read ratios, as configurations took turns.",
       noisy, judged, 100 * kNoisyFraction, 100 * kNoisyOutliers, worst->run.id, 100 * worst_spread);
 }
 
@@ -77,8 +77,8 @@ std::vector<double> times_per_ray(const RunRecord& record) {
   std::vector<double> times;
   std::map<Work, std::vector<double>> by_work;
   for (const FrameRecord& frame : record.frames) {
-    if (frame.statistics.rays == 0) continue;
-    times.push_back(frame.host_ms * 1e6 / static_cast<double>(frame.statistics.rays));
+    if (frame.counters.rays == 0) continue;
+    times.push_back(frame.host_ms * 1e6 / static_cast<double>(frame.counters.rays));
     by_work[work_of(frame)].push_back(times.back());
   }
   if (by_work.size() < 2) return times;
@@ -86,7 +86,7 @@ std::vector<double> times_per_ray(const RunRecord& record) {
       std::ranges::max_element(by_work, {}, [](const auto& kind) { return kind.second.size(); })->second);
   auto time = times.begin();
   for (const FrameRecord& frame : record.frames) {
-    if (frame.statistics.rays != 0) *time++ *= usual / median(by_work.at(work_of(frame)));
+    if (frame.counters.rays != 0) *time++ *= usual / median(by_work.at(work_of(frame)));
   }
   return times;
 }

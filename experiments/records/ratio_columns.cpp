@@ -47,7 +47,7 @@ std::string text(const std::optional<Interval>& interval) {
 
 std::vector<Column<Ratios>> ratio_columns() {
   std::vector<Column<Ratios>> columns{
-      {"cell", [](const Ratios& row) { return CsvValue(row.cell); }},
+      {"configuration", [](const Ratios& row) { return CsvValue(row.configuration); }},
       {"baseline", [](const Ratios& row) { return CsvValue(row.baseline); }},
       {"scene", [](const Ratios& row) { return CsvValue(row.scene); }},
   };
@@ -61,13 +61,13 @@ std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& sc
   std::vector<std::vector<std::string>> rows;
   for (const Ratios& row : ratios) {
     if (row.scene != scene) continue;
-    rows.push_back({row.cell, row.baseline, text(figure("host_ms_median")(row)), text(figure("mse")(row)),
+    rows.push_back({row.configuration, row.baseline, text(figure("host_ms_median")(row)), text(figure("mse")(row)),
                     text(figure("relmse")(row)), text(figure("relmse_trimmed")(row)),
                     text(figure("relmse_x_s")(row)), text(row.relmse.ratio)});
   }
   if (rows.empty()) return "";
-  return "\nThe baseline's figure divided by the cell's; above 1, the baseline needs more:\n\n" +
-         markdown_table({"cell", "baseline", "host ms/frame", "MSE", "relMSE", "relMSE trimmed", "relMSE × s",
+  return "\nThe baseline's figure divided by the configuration's; above 1, the baseline needs more:\n\n" +
+         markdown_table({"configuration", "baseline", "host ms/frame", "MSE", "relMSE", "relMSE trimmed", "relMSE × s",
                          "time to the baseline's relMSE"},
                         rows, 2);
 }

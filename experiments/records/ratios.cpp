@@ -49,15 +49,15 @@ Side jackknife_variance(const std::vector<double>& values) {
   return {values.empty() ? 0 : squares * (count - 1) / count, values.size()};
 }
 
-std::vector<Curve> curves_of(const Cell& cell, Metric metric) {
+std::vector<Curve> curves_of(const Configuration& configuration, Metric metric) {
   std::vector<Curve> curves;
-  for (const RunRecord* run : cell.members) curves.push_back(curve_of(*run, metric));
+  for (const RunRecord* run : configuration.members) curves.push_back(curve_of(*run, metric));
   return curves;
 }
 
-// log(the baseline's seconds / the cell's until it has the baseline's error), both mean curves.
-std::optional<double> log_time_ratio(const Curve& baseline, const Curve& cell) {
-  const auto time = time_to_error(cell, baseline.back().error);
+// log(the baseline's seconds / the configuration's until it has the baseline's error), both mean curves.
+std::optional<double> log_time_ratio(const Curve& baseline, const Curve& configuration) {
+  const auto time = time_to_error(configuration, baseline.back().error);
   return time ? std::optional(std::log(baseline.back().seconds / *time)) : std::nullopt;
 }
 
@@ -73,39 +73,39 @@ std::optional<std::vector<double>> leave_one_out(std::size_t seeds, Without with
   return values.empty() ? std::nullopt : std::optional(values);
 }
 
-std::optional<Interval> time_ratio(const std::vector<Curve>& baseline, const std::vector<Curve>& cell) {
+std::optional<Interval> time_ratio(const std::vector<Curve>& baseline, const std::vector<Curve>& configuration) {
   const Curve baseline_mean = mean_curve(baseline);
-  const Curve cell_mean = mean_curve(cell);
-  const auto value = log_time_ratio(baseline_mean, cell_mean);
+  const Curve configuration_mean = mean_curve(configuration);
+  const auto value = log_time_ratio(baseline_mean, configuration_mean);
   if (!value) return std::nullopt;
   const auto above = leave_one_out(
-      baseline.size(), [&](std::size_t i) { return log_time_ratio(mean_curve(baseline, i), cell_mean); });
+      baseline.size(), [&](std::size_t i) { return log_time_ratio(mean_curve(baseline, i), configuration_mean); });
   const auto below = leave_one_out(
-      cell.size(), [&](std::size_t i) { return log_time_ratio(baseline_mean, mean_curve(cell, i)); });
+      configuration.size(), [&](std::size_t i) { return log_time_ratio(baseline_mean, mean_curve(configuration, i)); });
   return above && below ? jackknife(*value, *above, *below) : Interval{std::exp(*value), {}, {}};
 }
 
-TimeToError compare_times(const Cell& baseline, const Cell& cell, Metric metric) {
+TimeToError compare_times(const Configuration& baseline, const Configuration& configuration, Metric metric) {
   const std::vector<Curve> baseline_curves = curves_of(baseline, metric);
-  const std::vector<Curve> cell_curves = curves_of(cell, metric);
+  const std::vector<Curve> configuration_curves = curves_of(configuration, metric);
   TimeToError result;
-  if (baseline_curves.empty() || cell_curves.empty()) return result;
+  if (baseline_curves.empty() || configuration_curves.empty()) return result;
   result.target = mean_curve(baseline_curves).back().error;
-  result.time = time_to_error(cell_curves, *result.target);
-  result.ratio = time_ratio(baseline_curves, cell_curves);
+  result.time = time_to_error(configuration_curves, *result.target);
+  result.ratio = time_ratio(baseline_curves, configuration_curves);
   return result;
 }
 
-// The baseline that differs from the cell in one label alone, or null.
-const Cell* baseline_of(const Experiment& experiment, const Cell& cell, const std::vector<Cell>& cells) {
+// The baseline that differs from the configuration in one label alone, or null.
+const Configuration* baseline_of(const Experiment& experiment, const Configuration& configuration, const std::vector<Configuration>& configurations) {
   for (std::size_t axis = 0; axis < experiment.axes.size(); ++axis) {
     if (experiment.axes[axis].is_seed) continue;
-    for (const Cell& other : cells) {
-      if (&other == &cell) continue;
-      std::vector<std::string> labels = cell.labels;
+    for (const Configuration& other : configurations) {
+      if (&other == &configuration) continue;
+      std::vector<std::string> labels = configuration.labels;
       labels[axis] = other.labels[axis];
       const bool is_named = other.labels[axis] == experiment.baseline || other.name == experiment.baseline;
-      if (is_named && labels == other.labels && other.scene == cell.scene) return &other;
+      if (is_named && labels == other.labels && other.scene == configuration.scene) return &other;
     }
   }
   return nullptr;
@@ -133,21 +133,21 @@ std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double ta
   return others ? jackknife(std::log(*time), *others, {}) : Interval{*time, {}, {}};
 }
 
-std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Cell>& cells) {
+std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Configuration>& configurations) {
   std::vector<Ratios> rows;
   if (experiment.baseline.empty()) return rows;
-  for (const Cell& cell : cells) {
-    const Cell* baseline = baseline_of(experiment, cell, cells);
+  for (const Configuration& configuration : configurations) {
+    const Configuration* baseline = baseline_of(experiment, configuration, configurations);
     if (baseline == nullptr) continue;
-    Ratios row{cell.name, baseline->name, cell.scene, {}, {}, {}};
+    Ratios row{configuration.name, baseline->name, configuration.scene, {}, {}, {}};
     for (const std::string& figure : kFigures) {
       const auto above = baseline->figures.find(figure);
-      const auto below = cell.figures.find(figure);
-      if (above == baseline->figures.end() || below == cell.figures.end()) continue;
+      const auto below = configuration.figures.find(figure);
+      if (above == baseline->figures.end() || below == configuration.figures.end()) continue;
       if (const auto ratio = ratio_of_means(above->second, below->second)) row.figures[figure] = *ratio;
     }
-    row.mse = compare_times(*baseline, cell, &ErrorMetrics::mse);
-    row.relmse = compare_times(*baseline, cell, &ErrorMetrics::relmse);
+    row.mse = compare_times(*baseline, configuration, &ErrorMetrics::mse);
+    row.relmse = compare_times(*baseline, configuration, &ErrorMetrics::relmse);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -1,7 +1,7 @@
-// Ratios of a baseline to the other cells: above 1 where the baseline needs more.
+// Ratios of a baseline to the other configurations: above 1 where the baseline needs more.
 #pragma once
 
-#include "experiments/records/cells.h"
+#include "experiments/records/configurations.h"
 #include "experiments/records/curve.h"
 #include "experiments/config/experiment_config.h"
 
@@ -31,29 +31,29 @@ std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& be
 Interval jackknife(double log_value, const std::vector<double>& log_above,
                    const std::vector<double>& log_below);
 
-// How long a cell takes to reach an error, read off the mean curve of its seeds.
+// How long a configuration takes to reach an error, read off the mean curve of its seeds.
 std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double target);
 
 struct TimeToError {
   std::optional<double> target;   // the mean error of the baseline at its end
-  std::optional<Interval> time;   // seconds of the cell; empty if never reached, or before its first snapshot
+  std::optional<Interval> time;   // seconds of the configuration; empty if never reached, or before its first snapshot
   std::optional<Interval> ratio;  // the baseline's mean seconds / time; the target varies with the baseline
 };
 
-// One cell against its baseline.
+// One configuration against its baseline.
 struct Ratios {
-  std::string cell;
+  std::string configuration;
   std::string baseline;
   std::string scene;
-  std::map<std::string, Interval> figures;  // by column of cells.csv
+  std::map<std::string, Interval> figures;  // by column of configurations.csv
   TimeToError mse;
   TimeToError relmse;
 };
 
-// Nothing where the experiment names no baseline. In the order of the cells.
-std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Cell>& cells);
+// Nothing where the experiment names no baseline. In the order of the configurations.
+std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Configuration>& configurations);
 
-const std::vector<std::string>& ratio_figures();  // columns of cells.csv
+const std::vector<std::string>& ratio_figures();  // columns of configurations.csv
 std::vector<Column<Ratios>> ratio_columns();      // of ratios.csv
 
 // A Markdown table of the ratios of one scene, or nothing.

@@ -9,7 +9,7 @@ namespace {
 constexpr int kLayout = 1;
 
 template <class Visitor>
-void visit_fields(Visitor& visit, FrameStatistics& s) {
+void visit_fields(Visitor& visit, FrameCounters& s) {
   visit(s.paths), visit(s.rays), visit(s.path_segments), visit(s.zero_paths), visit(s.cell_lookups);
   visit(s.cell_fallbacks), visit(s.non_finite), visit(s.table_updates), visit(s.saturated_updates);
   visit(s.fireflies), visit(s.clamped_samples);
@@ -18,7 +18,7 @@ void visit_fields(Visitor& visit, FrameStatistics& s) {
 template <class Visitor>
 void visit_fields(Visitor& visit, FrameRecord& frame) {
   visit(frame.frame), visit(frame.is_warmup), visit(frame.host_ms), visit(frame.gpu_ms);
-  visit(frame.elapsed_s), visit(frame.gpu_elapsed_s), visit(frame.statistics);
+  visit(frame.elapsed_s), visit(frame.gpu_elapsed_s), visit(frame.counters);
 }
 
 template <class Visitor>

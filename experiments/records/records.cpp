@@ -79,8 +79,8 @@ void add_filter_columns(std::vector<Column<Row>>& columns) {
 
 // The counts that frames.csv has per frame and summary.csv as totals.
 template <class Row, class Get>
-void add_statistics_columns(std::vector<Column<Row>>& columns, Get get) {
-  using S = FrameStatistics;
+void add_counter_columns(std::vector<Column<Row>>& columns, Get get) {
+  using S = FrameCounters;
   const auto column = [get](const char* name, CsvValue (*value)(const S&)) {
     return Column<Row>{name, [get, value](const Row& row) { return value(get(row)); }};
   };
@@ -116,7 +116,7 @@ void add_time_columns(std::vector<Column<RunRecord>>& columns, const std::string
                                  {clock + "_ms_iqr", iqr}});
 }
 
-// Snapshots of one run share samples, so its slope has no interval of its own: cells.csv has one over seeds.
+// Snapshots of one run share samples, so its slope has no interval of its own: configurations.csv has one over seeds.
 void add_slope_columns(std::vector<Column<RunRecord>>& columns) {
   const auto slope = [](Metric metric) {
     return [metric](const RunRecord& row) {
@@ -197,7 +197,7 @@ std::vector<Column<FrameRecord>> frame_columns() {
       {"elapsed_s", [](const R& row) { return CsvValue(row.elapsed_s); }},
       {"gpu_elapsed_s", [](const R& row) { return CsvValue(row.gpu_elapsed_s); }},
   };
-  add_statistics_columns(columns, [](const R& row) { return row.statistics; });
+  add_counter_columns(columns, [](const R& row) { return row.counters; });
   return columns;
 }
 
@@ -223,7 +223,7 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
   using R = RunRecord;
   std::vector<Column<R>> columns{
       {"run", [](const R& row) { return CsvValue(row.run.id); }},
-      {"cell", [](const R& row) { return CsvValue(row.run.cell); }},
+      {"configuration", [](const R& row) { return CsvValue(row.run.configuration); }},
   };
   for (std::size_t i = 0; i < axes.size(); ++i) {
     columns.push_back({"axis:" + axes[i].name, [i](const R& row) { return CsvValue(row.run.labels[i]); }});
@@ -253,7 +253,7 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
   columns.push_back({"relmse_x_s", [](const R& row) { return maybe(row.relmse_x_seconds()); }});
   add_slope_columns(columns);
   add_filter_columns(columns);
-  add_statistics_columns(columns, [](const R& row) { return row.totals(); });
+  add_counter_columns(columns, [](const R& row) { return row.totals(); });
   add_outlier_columns(columns);
   add_verdict_columns(columns);
   columns.push_back({"reference_hash", [](const R& row) { return CsvValue(row.reference_hash); }});

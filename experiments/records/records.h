@@ -20,7 +20,7 @@ struct FrameRecord {
   double gpu_ms = 0;       // GL timer queries around the frame
   double elapsed_s = 0;    // sum of host times so far
   double gpu_elapsed_s = 0;
-  FrameStatistics statistics;
+  FrameCounters counters;
 };
 
 // A filtered copy of a snapshot: biased, so its errors are never mixed with the others.
@@ -41,7 +41,7 @@ struct SnapshotRecord {
   std::optional<FilteredRecord> filtered;
 };
 
-// The fireflies of a run; their number is among the statistics of its frames.
+// The fireflies of a run; their number is among the counters of its frames.
 struct FireflyRecord {
   std::optional<double> energy_fraction;  // of all radiance summed; nothing for black images
   std::optional<double> brightest;        // radiance
@@ -71,7 +71,7 @@ struct RunRecord {
   std::vector<double> gpu_ms() const;
   double elapsed_s() const { return frames.empty() ? 0 : frames.back().elapsed_s; }
   double gpu_elapsed_s() const { return frames.empty() ? 0 : frames.back().gpu_elapsed_s; }
-  FrameStatistics totals() const;
+  FrameCounters totals() const;
   // Forgets the frames after it, so that errors and times belong together where a run was stopped between
   // two.
   void end_at_last_snapshot();

@@ -18,20 +18,20 @@ std::vector<double> RunRecord::host_ms() const { return counted(frames, &FrameRe
 
 std::vector<double> RunRecord::gpu_ms() const { return counted(frames, &FrameRecord::gpu_ms); }
 
-FrameStatistics RunRecord::totals() const {
-  FrameStatistics total;
+FrameCounters RunRecord::totals() const {
+  FrameCounters total;
   for (const FrameRecord& frame : frames) {
-    total.paths += frame.statistics.paths;
-    total.rays += frame.statistics.rays;
-    total.path_segments += frame.statistics.path_segments;
-    total.zero_paths += frame.statistics.zero_paths;
-    total.cell_lookups += frame.statistics.cell_lookups;
-    total.cell_fallbacks += frame.statistics.cell_fallbacks;
-    total.non_finite += frame.statistics.non_finite;
-    total.table_updates += frame.statistics.table_updates;
-    total.saturated_updates += frame.statistics.saturated_updates;
-    total.fireflies += frame.statistics.fireflies;
-    total.clamped_samples += frame.statistics.clamped_samples;
+    total.paths += frame.counters.paths;
+    total.rays += frame.counters.rays;
+    total.path_segments += frame.counters.path_segments;
+    total.zero_paths += frame.counters.zero_paths;
+    total.cell_lookups += frame.counters.cell_lookups;
+    total.cell_fallbacks += frame.counters.cell_fallbacks;
+    total.non_finite += frame.counters.non_finite;
+    total.table_updates += frame.counters.table_updates;
+    total.saturated_updates += frame.counters.saturated_updates;
+    total.fireflies += frame.counters.fireflies;
+    total.clamped_samples += frame.counters.clamped_samples;
   }
   return total;
 }
@@ -58,7 +58,7 @@ std::optional<double> RunRecord::relmse_x_seconds() const {
 }
 
 std::optional<double> RunRecord::fireflies_per_million() const {
-  const FrameStatistics total = totals();
+  const FrameCounters total = totals();
   if (total.paths == 0) return std::nullopt;
   return 1e6 * static_cast<double>(total.fireflies) / static_cast<double>(total.paths);
 }

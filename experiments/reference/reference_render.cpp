@@ -109,7 +109,7 @@ class Rendering {
       tracer_.render_frame();
       context_.finish();
       context_.check_alive();
-      non_finite_ += tracer_.last_frame_statistics().non_finite;
+      non_finite_ += tracer_.last_frame_counters().non_finite;
       progress_.step(frames());
       const auto stopped = stopper_.reason();
       if (!stopped && Clock::now() - saved_ < pause_) continue;

@@ -180,7 +180,7 @@ void Execution::measure_frame(int frame, Tracer& tracer, gpu::Timer& timer) {
   next.gpu_ms = timer.milliseconds();
   next.elapsed_s = record_.elapsed_s() + next.host_ms / 1e3;
   next.gpu_elapsed_s = record_.gpu_elapsed_s() + next.gpu_ms / 1e3;
-  next.statistics = tracer.last_frame_statistics();
+  next.counters = tracer.last_frame_counters();
   record_.frames.push_back(next);
 }
 

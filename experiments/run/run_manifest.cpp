@@ -17,7 +17,7 @@ Json first_manifest(const RunJob& job, const RunRecord& record) {
                 {"experiment", job.experiment.name},
                 {"config_file", job.experiment.file.string()},
                 {"run", job.run.id},
-                {"cell", job.run.cell},
+                {"configuration", job.run.configuration},
                 {"axes", axes},
                 {"config", write_knobs(config)},
                 {"config_hash", record.config_hash},

@@ -11,8 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostMeasured = 32;    // cells; the others are taken for their mean
-constexpr double kLongestMeasurement = 0.5;  // seconds of frames per cell
+constexpr std::size_t kMostMeasured = 32;    // configurations; the others are taken for their mean
+constexpr double kLongestMeasurement = 0.5;  // seconds of frames per configuration
 constexpr int kMostFrames = 16;
 
 double seconds_since(Clock::time_point start) {
@@ -41,37 +41,37 @@ Speed measure_speed(const gpu::Context& context, const Scene& scene, const Rende
 
 Calibration::Calibration(const Experiment& experiment, const std::vector<Turn>& turns,
                          const gpu::Context& context, SceneStore& scenes, Progress& progress) {
-  std::vector<const Run*> firsts;  // of each cell
+  std::vector<const Run*> firsts;  // of each configuration
   std::set<std::string> seen;
   for (const Turn& turn : turns) {
     const Run& run = experiment.runs[turn.place];
-    if (seen.insert(run.cell).second) firsts.push_back(&run);
+    if (seen.insert(run.configuration).second) firsts.push_back(&run);
   }
-  cells_ = firsts.size();
-  const std::size_t step = std::max<std::size_t>(1, (cells_ + kMostMeasured - 1) / kMostMeasured);
-  for (std::size_t i = 0; i < cells_; i += step) {
+  configurations_ = firsts.size();
+  const std::size_t step = std::max<std::size_t>(1, (configurations_ + kMostMeasured - 1) / kMostMeasured);
+  for (std::size_t i = 0; i < configurations_; i += step) {
     const Run& run = *firsts[i];
-    progress.note(fmt::format("measuring {}", run.cell));
-    speeds_[run.cell] =
+    progress.note(fmt::format("measuring {}", run.configuration));
+    speeds_[run.configuration] =
         measure_speed(context, scenes.load(experiment.scene_file(run)).scene, run.config.render);
   }
 }
 
 double Calibration::seconds(const Run& run, int frames) const {
   if (frames == 0) return 0;
-  const auto own = speeds_.find(run.cell);
+  const auto own = speeds_.find(run.configuration);
   const Speed speed = own == speeds_.end() ? mean() : own->second;
   return speed.setup_s + speed.frame_s * frames;
 }
 
 std::string Calibration::text() const {
-  return cells_ == speeds_.size() ? fmt::format("measured on all {} cells", cells_)
-                                  : fmt::format("measured on {} of its {} cells", speeds_.size(), cells_);
+  return configurations_ == speeds_.size() ? fmt::format("measured on all {} configurations", configurations_)
+                                  : fmt::format("measured on {} of its {} configurations", speeds_.size(), configurations_);
 }
 
 Speed Calibration::mean() const {
   Speed sum;
-  for (const auto& [cell, speed] : speeds_) sum.setup_s += speed.setup_s, sum.frame_s += speed.frame_s;
+  for (const auto& [configuration, speed] : speeds_) sum.setup_s += speed.setup_s, sum.frame_s += speed.frame_s;
   const auto count = static_cast<double>(std::max<std::size_t>(1, speeds_.size()));
   return {sum.setup_s / count, sum.frame_s / count};
 }

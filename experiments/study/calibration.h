@@ -1,4 +1,4 @@
-// How long runs will take, by some frames of each cell.
+// How long runs will take, by some frames of each configuration.
 #pragma once
 
 #include "engine/gpu/context.h"
@@ -20,7 +20,7 @@ struct Speed {
 // A tracer's first frames, the very first left out: at most 16, or half a second.
 Speed measure_speed(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
 
-// One cell's speed for all of its runs; of many cells, some that are evenly spread stand for the others.
+// One configuration's speed for all of its runs; of many configurations, some that are evenly spread stand for the others.
 class Calibration {
  public:
   // Measures.
@@ -28,13 +28,13 @@ class Calibration {
               SceneStore& scenes, Progress& progress);
 
   double seconds(const Run& run, int frames) const;  // setup included; 0 for no frames
-  std::string text() const;                          // "measured on all 12 cells"
+  std::string text() const;                          // "measured on all 12 configurations"
 
  private:
   Speed mean() const;
 
-  std::map<std::string, Speed> speeds_;  // by cell
-  std::size_t cells_ = 0;
+  std::map<std::string, Speed> speeds_;  // by configuration
+  std::size_t configurations_ = 0;
 };
 
 }  // namespace qtrace::experiments

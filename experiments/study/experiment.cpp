@@ -131,7 +131,7 @@ class Work {
           folder_.path().string(), bytes_text(needed), bytes_text(free));
   }
 
-  // With a time budget, all cells grow together.
+  // With a time budget, all configurations grow together.
   int rounds() {
     const auto budget = stopper_.seconds_left();
     if (!budget) return 1;
@@ -143,7 +143,7 @@ class Work {
     double seconds = 0;
     for (const Turn& turn : firsts) seconds += calibration.seconds(run_of(turn), run_of(turn).config.frames);
     const int rounds = rounds_for(seconds, *budget);
-    progress_.note(fmt::format("one run of each cell takes about {}: the cells grow in {} rounds",
+    progress_.note(fmt::format("one run of each configuration takes about {}: the configurations grow in {} rounds",
                                duration_text(seconds), rounds));
     return rounds;
   }

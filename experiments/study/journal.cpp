@@ -5,7 +5,7 @@
 #include "experiments/records/ratios.h"
 #include "experiments/study/results_folder.h"
 #include "experiments/run/run_files.h"
-#include "experiments/records/table.h"
+#include "experiments/records/summary_page.h"
 
 #include <algorithm>
 
@@ -88,37 +88,37 @@ std::string Journal::counts() const {
   return text;
 }
 
-std::vector<Cell> Journal::collect() const {
-  std::vector<Cell> cells = collect_cells(records_);
-  for (Cell& cell : cells) {
-    if (const auto parts = parts_.find(cell.name); parts != parts_.end()) cell.parts = parts->second;
+std::vector<Configuration> Journal::collect() const {
+  std::vector<Configuration> configurations = collect_configurations(records_);
+  for (Configuration& configuration : configurations) {
+    if (const auto parts = parts_.find(configuration.name); parts != parts_.end()) configuration.parts = parts->second;
   }
-  return cells;
+  return configurations;
 }
 
-// Variance and bias of every cell, from the images in its runs' folders.
+// Variance and bias of every configuration, from the images in its runs' folders.
 void Journal::separate(Progress& progress) {
   std::string kept_hash;
-  std::optional<StoredReference> kept;  // cells of one scene share theirs
-  for (const Cell& cell : collect_cells(records_)) {
-    if (cell.members.size() < 2) continue;
+  std::optional<StoredReference> kept;  // configurations of one scene share theirs
+  for (const Configuration& configuration : collect_configurations(records_)) {
+    if (configuration.members.size() < 2) continue;
     const auto image = [&](std::size_t seed) {
-      const RunRecord& run = *cell.members[seed];
+      const RunRecord& run = *configuration.members[seed];
       const fs::path file = snapshot_file(folder_ / run.run.id, run.last_snapshot()->frame);
       return to_radiance(read_exr(file), file);
     };
     try {
-      const std::string& hash = cell.members.front()->reference_hash;
+      const std::string& hash = configuration.members.front()->reference_hash;
       if (hash != kept_hash) {
         const Reference& reference = references_.used().at(hash);
         kept = read_reference(reference.file, reference.spec);
         kept_hash = hash;
       }
-      if (const auto parts = separate_errors(cell.members.size(), image, kept->image)) {
-        parts_.insert_or_assign(cell.name, *parts);
+      if (const auto parts = separate_errors(configuration.members.size(), image, kept->image)) {
+        parts_.insert_or_assign(configuration.name, *parts);
       }
     } catch (const std::exception& error) {
-      progress.warning(fmt::format("{}: bias and variance are not told apart: {}", cell.name, error.what()));
+      progress.warning(fmt::format("{}: bias and variance are not told apart: {}", configuration.name, error.what()));
     }
   }
 }
@@ -145,12 +145,12 @@ void Journal::write() {
   const auto start = Clock::now();
   manifest_["runs"] = run_list();
   write_file(folder_ / "summary.csv", csv_text(run_columns(experiment_.axes), records_));
-  const std::vector<Cell> cells = collect();
-  write_file(folder_ / "cells.csv", csv_text(cell_columns(experiment_.axes), cells));
+  const std::vector<Configuration> configurations = collect();
+  write_file(folder_ / "configurations.csv", csv_text(configuration_columns(experiment_.axes), configurations));
   if (!experiment_.baseline.empty()) {
-    write_file(folder_ / "ratios.csv", csv_text(ratio_columns(), baseline_ratios(experiment_, cells)));
+    write_file(folder_ / "ratios.csv", csv_text(ratio_columns(), baseline_ratios(experiment_, configurations)));
   }
-  write_file(folder_ / "table.md", table());
+  write_file(folder_ / "summary.md", table());
   write_json(folder_ / "manifest.json", manifest_);
   written_ = Clock::now();
   cost_ = written_ - start;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/gpu/context.h"
-#include "experiments/records/cells.h"
+#include "experiments/records/configurations.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/files/json.h"
 #include "experiments/runtime/progress.h"
@@ -33,7 +33,7 @@ class Journal {
   void write();
 
   // `stopped`: why the work ends before all is done; empty where it does not. Tells variance and bias of the
-  // cells apart, and writes the files.
+  // configurations apart, and writes the files.
   void close(const std::string& stopped, Progress& progress);
 
   bool all_finished() const;  // and met what was expected of them
@@ -43,7 +43,7 @@ class Journal {
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::vector<Cell> collect() const;
+  std::vector<Configuration> collect() const;
   void separate(Progress& progress);
   Json run_list() const;
 
@@ -52,7 +52,7 @@ class Journal {
   std::string device_;
   std::filesystem::path folder_;
   std::vector<RunRecord> records_;           // in the order of the config
-  std::map<std::string, ErrorParts> parts_;  // by cell
+  std::map<std::string, ErrorParts> parts_;  // by configuration
   Json manifest_;
   Clock::time_point written_;
   Clock::duration cost_{};  // of the last writing

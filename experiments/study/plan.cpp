@@ -20,10 +20,10 @@ int end_of_round(const RunConfig& config, int halvings) {
 }  // namespace
 
 std::vector<Turn> execution_order(const Experiment& experiment) {
-  std::map<std::string, int> runs_of_cell;
+  std::map<std::string, int> runs_of_configuration;
   std::vector<std::pair<int, std::size_t>> places;  // (repetition, place)
   for (std::size_t i = 0; i < experiment.runs.size(); ++i) {
-    places.emplace_back(runs_of_cell[experiment.runs[i].cell]++, i);
+    places.emplace_back(runs_of_configuration[experiment.runs[i].configuration]++, i);
   }
   std::ranges::sort(places);
   std::vector<Turn> turns;
@@ -40,7 +40,7 @@ std::vector<Turn> chosen_turns(const Experiment& experiment, const RunChoices& c
     const std::string& id = experiment.runs[turn.place].id;
     if (!choices.only.empty() && ::fnmatch(choices.only.c_str(), id.c_str(), 0) != 0) continue;
     ++fitting;
-    // Dealt out one by one, so that every shard has its share of every cell's repetitions.
+    // Dealt out one by one, so that every shard has its share of every configuration's repetitions.
     if (static_cast<std::size_t>(turn.order - 1) % choices.shard.count == choices.shard.index - 1)
       turns.push_back(turn);
   }

@@ -125,7 +125,7 @@ class Stages {
   // Of what a frame needs, by what it did: rays of the camera, and later ones in units of the measured set.
   std::vector<Design> designs() const {
     const auto paths = static_cast<double>(sets_.primary.size());
-    const double later = static_cast<double>(plain_.last_frame_statistics().rays) - paths;
+    const double later = static_cast<double>(plain_.last_frame_counters().rays) - paths;
     const double sets = later / static_cast<double>(sets_.bounce.size());
     const double events = later / paths;
     return {{"the frame: one kernel", {{1, frame}}},

@@ -17,8 +17,8 @@ namespace {
 
 using experiments::Run;
 
-// A cell with what renders it.
-struct Cell {
+// A configuration with what renders it.
+struct Configuration {
   const Run* run;
   std::unique_ptr<Tracer> tracer;
 };
@@ -71,24 +71,24 @@ void print(const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
-// The cells of one scene in one interleaving: ratios are taken within a scene.
-void bench_scene_cells(const gpu::Context& context, const std::vector<Cell>& cells, int rounds,
+// The configurations of one scene in one interleaving: ratios are taken within a scene.
+void bench_scene_configurations(const gpu::Context& context, const std::vector<Configuration>& configurations, int rounds,
                        std::vector<Row>& rows, std::vector<RoundRow>& round_rows) {
   std::vector<Contender> contenders;
   const Contender* plain = nullptr;
-  for (const Cell& cell : cells) {
-    contenders.push_back({cell.run->labels.back(), [&] { return timed_frame(context, *cell.tracer); }});
+  for (const Configuration& configuration : configurations) {
+    contenders.push_back({configuration.run->labels.back(), [&] { return timed_frame(context, *configuration.tracer); }});
   }
   run_rounds(contenders, rounds);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (is_plain(cells[i].run->config.render)) plain = &contenders[i];
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    if (is_plain(configurations[i].run->config.render)) plain = &contenders[i];
   }
-  check(plain != nullptr, "{} has no cell of plain BSDF sampling to compare with", cells.front().run->cell);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Run& run = *cells[i].run;
+  check(plain != nullptr, "{} has no configuration of plain BSDF sampling to compare with", configurations.front().run->configuration);
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const Run& run = *configurations[i].run;
     const Contender& c = contenders[i];
     rows.push_back({run.labels.front(), c.name, run.config.render.width, c.wall_s.size(),
-                    cells[i].tracer->last_frame_statistics().rays, kMilliseconds * spread_of(c.wall_s),
+                    configurations[i].tracer->last_frame_counters().rays, kMilliseconds * spread_of(c.wall_s),
                     kMilliseconds * spread_of(c.cpu_s), kMilliseconds * spread_of(c.host_s),
                     ratio_of(c.wall_s, plain->wall_s), ratio_of(c.cpu_s, plain->cpu_s)});
     append_rounds(round_rows, {run.labels.front(), c.name}, c);
@@ -102,7 +102,7 @@ experiments::Experiment paper_table(int size) {
       experiments::load_experiment(QTRACE_SOURCE_DIR "/configs/paper_table.json",
                                    {fmt::format("width={}", size), fmt::format("height={}", size)});
   std::set<std::string> seen;
-  std::erase_if(experiment.runs, [&](const Run& run) { return !seen.insert(run.cell).second; });
+  std::erase_if(experiment.runs, [&](const Run& run) { return !seen.insert(run.configuration).second; });
   for (Run& run : experiment.runs) run.labels.pop_back();  // the seed's
   return experiment;
 }
@@ -122,12 +122,12 @@ void bench_frames(const gpu::Context& context, const FrameBenchOptions& options)
   std::vector<RoundRow> rounds;
   for (std::size_t i = 0; i < experiment.runs.size();) {
     const std::filesystem::path file = experiment.scene_file(experiment.runs[i]);
-    std::vector<Cell> cells;
+    std::vector<Configuration> configurations;
     for (; i < experiment.runs.size() && experiment.scene_file(experiment.runs[i]) == file; ++i) {
       const Run& run = experiment.runs[i];
-      cells.push_back({&run, std::make_unique<Tracer>(context, scenes.load(file).scene, run.config.render)});
+      configurations.push_back({&run, std::make_unique<Tracer>(context, scenes.load(file).scene, run.config.render)});
     }
-    bench_scene_cells(context, cells, options.rounds, rows, rounds);
+    bench_scene_configurations(context, configurations, options.rounds, rows, rounds);
   }
   print(rows);
   experiments::write_file(options.out / "frames.csv", experiments::csv_text(columns(), rows));

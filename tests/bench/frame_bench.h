@@ -1,4 +1,4 @@
-// Milliseconds per frame of every cell of an experiment.
+// Milliseconds per frame of every configuration of an experiment.
 #pragma once
 
 #include "engine/gpu/context.h"
@@ -18,7 +18,7 @@ struct FrameBenchOptions {
   std::filesystem::path out;
 };
 
-// configs/paper_table.json with its settings resolved, one run for each cell, at this size.
+// configs/paper_table.json with its settings resolved, one run for each configuration, at this size.
 experiments::Experiment paper_table(int size);
 
 Duration timed_frame(const gpu::Context& context, Tracer& tracer);

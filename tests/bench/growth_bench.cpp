@@ -128,7 +128,7 @@ class GrowthBench {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Contender& c = contenders[i];
       const Contender& base = *first.emplace(c.name, &c).first->second;
-      rows_.push_back({axis.name, points[i].value, c.name, points[i].tracer->last_frame_statistics().rays,
+      rows_.push_back({axis.name, points[i].value, c.name, points[i].tracer->last_frame_counters().rays,
                        kMilliseconds * spread_of(c.wall_s), ratio_of(c.wall_s, base.wall_s),
                        ratio_of(c.cpu_s, base.cpu_s)});
       append_rounds(rounds_, {axis.name, fmt::format("{}", points[i].value), c.name}, c);

@@ -110,8 +110,8 @@ TEST(Grid, NearlyNoHitOfAPathIsWithoutACell) {
     std::uint64_t fallbacks = 0;
     for (int i = 0; i < 4; ++i) {
       tracer.render_frame();
-      lookups += tracer.last_frame_statistics().cell_lookups;
-      fallbacks += tracer.last_frame_statistics().cell_fallbacks;
+      lookups += tracer.last_frame_counters().cell_lookups;
+      fallbacks += tracer.last_frame_counters().cell_fallbacks;
     }
     EXPECT_GT(lookups, 4U * kSize * kSize);
     EXPECT_LT(static_cast<double>(fallbacks), 1e-5 * static_cast<double>(lookups));

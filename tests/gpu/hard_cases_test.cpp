@@ -135,7 +135,7 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = i % 3 == 0 ? kLargest : 0;
     tracer.table()->set_values(values);
     EXPECT_EQ(render(tracer, 1).non_finite, 0U);
-    saturated += tracer.last_frame_statistics().saturated_updates;
+    saturated += tracer.last_frame_counters().saturated_updates;
     const Rendering r = render(tracer, 63);
     EXPECT_EQ(r.non_finite, 0U);
     for (const float value : tracer.table()->values()) {

@@ -124,7 +124,7 @@ Bits rendered(const Scene& scene, UpdateRule rule, const gpu::Defines& order) {
   settings.lights = LightChoice::learned;
   Tracer tracer(device(), scene, settings, order);
   Bits bits{render(tracer, 8).image, tracer.table()->values(), tracer.table()->visits()};
-  bits.saturated = tracer.last_frame_statistics().saturated_updates;
+  bits.saturated = tracer.last_frame_counters().saturated_updates;
   return bits;
 }
 

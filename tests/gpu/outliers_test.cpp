@@ -36,7 +36,7 @@ TEST(Outliers, SamplesAboveTheirPixelsThresholdAreFireflies) {
   tracer.set_firefly_thresholds(thresholds);
   for (int frame = 0; frame < kFrames; ++frame) {
     tracer.render_frame();
-    EXPECT_EQ(tracer.last_frame_statistics().fireflies, 3U);
+    EXPECT_EQ(tracer.last_frame_counters().fireflies, 3U);
   }
   const Outliers outliers = tracer.outliers();
   EXPECT_EQ(outliers.firefly_sum, 3 * kFrames);
@@ -54,7 +54,7 @@ TEST(Outliers, SamplesAboveTheirPixelsThresholdAreFireflies) {
 TEST(Outliers, WithoutThresholdsNothingIsAFirefly) {
   Tracer tracer(device(), glowing_box(glm::vec3(1e30F)), emission_alone());
   tracer.render_frame();
-  EXPECT_EQ(tracer.last_frame_statistics().fireflies, 0U);
+  EXPECT_EQ(tracer.last_frame_counters().fireflies, 0U);
   EXPECT_TRUE(tracer.outliers().brightest.empty());
 }
 
@@ -115,8 +115,8 @@ TEST(Outliers, ClampingKeepsHueAndSaysWhatItRemoved) {
   tracer.set_firefly_thresholds(std::vector<float>(kPixels, 2));  // between 7/6 clamped and 7/3 as it came
   for (int frame = 0; frame < kFrames; ++frame) {
     tracer.render_frame();
-    EXPECT_EQ(tracer.last_frame_statistics().clamped_samples, kPixels);
-    EXPECT_EQ(tracer.last_frame_statistics().fireflies, kPixels);
+    EXPECT_EQ(tracer.last_frame_counters().clamped_samples, kPixels);
+    EXPECT_EQ(tracer.last_frame_counters().fireflies, kPixels);
   }
   for (const glm::dvec3& pixel : tracer.radiance().mean) EXPECT_EQ(pixel, glm::dvec3(2, 1, 0.5));
   const Outliers outliers = tracer.outliers();

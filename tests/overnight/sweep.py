@@ -68,7 +68,7 @@ def differences(whole: Path, other: Path) -> list[str]:
             found.append(name)
     for file in sorted(whole.rglob("*.csv")):
         name = file.relative_to(whole)
-        if name.name in ("cells.csv", "ratios.csv"):
+        if name.name in ("configurations.csv", "ratios.csv"):
             continue  # made of summary.csv
         if rows_without_times(file) != rows_without_times(other / name):
             found.append(str(name))

@@ -86,7 +86,7 @@ TEST_P(States, GoOnWithTheSameBits) {
   for (std::size_t half = 0; half < 2; ++half) expect_equal(later.halves()[half], whole.halves()[half]);
   EXPECT_GT(whole.outliers().firefly_sum, 0);
   EXPECT_EQ(later.outliers().firefly_sum, whole.outliers().firefly_sum);
-  EXPECT_EQ(later.last_frame_statistics().rays, whole.last_frame_statistics().rays);
+  EXPECT_EQ(later.last_frame_counters().rays, whole.last_frame_counters().rays);
   ASSERT_EQ(later.table() == nullptr, whole.table() == nullptr);
   if (whole.table() == nullptr) return;
   EXPECT_EQ(later.table()->values(), whole.table()->values());

@@ -30,7 +30,7 @@ TEST(TableTrial, GivesTheTableUpUnderAnEvenSky) {
   const Tracer tracer = rendered("open_sky.glb", settings, 25);
   EXPECT_NEAR(tracer.trial_gain().value_or(0), 1.1, 0.05);
   EXPECT_TRUE(tracer.gave_table_up());
-  const FrameStatistics last = tracer.last_frame_statistics();
+  const FrameCounters last = tracer.last_frame_counters();
   EXPECT_EQ(last.cell_lookups, 0U);
   EXPECT_EQ(last.table_updates, 0U);
 }
@@ -39,7 +39,7 @@ TEST(TableTrial, KeepsTheTableBehindABlocker) {
   const Tracer tracer = rendered("occluded.glb", settings_of(Nee::one_ray), 25);
   EXPECT_GT(tracer.trial_gain().value_or(0), 1.5);
   EXPECT_FALSE(tracer.gave_table_up());
-  EXPECT_GT(tracer.last_frame_statistics().cell_lookups, 0U);
+  EXPECT_GT(tracer.last_frame_counters().cell_lookups, 0U);
 }
 
 // Without light samples, chance finds the lamp behind the door so rarely that frames without the table look

@@ -136,7 +136,7 @@ class SweepTest(unittest.TestCase):
         summary = rows_without_times(merged / "night/summary.csv")
         self.assertEqual([row["status"] for row in summary], ["finished"] * RUNS)
         self.assertIn("relmse", summary[0])
-        for name in ("table.md", "cells.csv"):
+        for name in ("summary.md", "configurations.csv"):
             self.assertTrue((merged / "night" / name).exists(), name)
         self.assertEqual(json.loads((merged / "night/manifest.json").read_text())["status"], "finished")
 

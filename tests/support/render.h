@@ -45,7 +45,7 @@ inline Rendering render(Tracer& tracer, int frames) {
   Rendering result;
   for (int i = 0; i < frames; ++i) {
     tracer.render_frame();
-    result.non_finite += tracer.last_frame_statistics().non_finite;
+    result.non_finite += tracer.last_frame_counters().non_finite;
   }
   result.image = tracer.radiance();
   return result;

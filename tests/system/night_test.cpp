@@ -31,7 +31,7 @@ TEST_F(Night, WhenTimeIsUpEveryCellHasAsMuchAsTheOthers) {
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "the time budget is used up")) << outcome.err;
   const auto rows = parse_csv(folder_.read("results/budget/summary.csv"));
-  ASSERT_EQ(rows.size(), 2U) << outcome.err;  // the first seed of each cell
+  ASSERT_EQ(rows.size(), 2U) << outcome.err;  // the first seed of each configuration
   for (const auto& row : rows) {
     EXPECT_EQ(row.at("status"), "partial");
     EXPECT_NE(row.at("relmse"), "");
@@ -49,7 +49,7 @@ TEST_F(Night, ADryRunTellsWhatIsThereAndWhatIsLeftAndWritesNothing) {
   const Outcome before = qtrace({"run", "plan.json", "--dry-run"});
   EXPECT_EQ(before.exit_code, 0) << before.err;
   EXPECT_TRUE(contains(before.out, "plan: 4 runs, 4 to do")) << before.out;
-  EXPECT_TRUE(contains(before.out, "measured on all 2 cells")) << before.out;
+  EXPECT_TRUE(contains(before.out, "measured on all 2 configurations")) << before.out;
   EXPECT_TRUE(contains(before.out, "disk: at most ")) << before.out;
   EXPECT_FALSE(fs::exists(folder_ / "results"));
   qtrace({"run", "plan.json", "--only", "*seed=1"});

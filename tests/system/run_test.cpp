@@ -13,7 +13,7 @@ TEST_F(RunProgram, WritesEveryFileOfEveryRun) {
   EXPECT_TRUE(contains(outcome.err, "device: "));
   EXPECT_TRUE(contains(outcome.err, "run 4/4 method=rl,seed=2: finished"));
   EXPECT_TRUE(contains(outcome.out, "NEE, one ray"));
-  EXPECT_EQ(folder_.read("results/e2e/table.md") + "\nFiles: results/e2e\n", outcome.out);
+  EXPECT_EQ(folder_.read("results/e2e/summary.md") + "\nFiles: results/e2e\n", outcome.out);
 
   const auto summary = parse_csv(folder_.read("results/e2e/summary.csv"));
   ASSERT_EQ(summary.size(), 4U);

@@ -6,7 +6,7 @@
 namespace qtrace::tests {
 namespace {
 
-// Cells take turns, seed by seed, whatever the order of the axes; files keep the order of the config.
+// Configurations take turns, seed by seed, whatever the order of the axes; files keep the order of the config.
 TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
   ASSERT_EQ(run("turns", kMethods).exit_code, 0);
   const auto summary = parse_csv(folder_.read("results/turns/summary.csv"));
@@ -24,31 +24,31 @@ TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
 TEST_F(RunProgram, CellsAndRatiosHaveIntervals) {
   const Outcome outcome = run("ratios", std::string(kMethods) + R"("baseline": "NEE, one ray", )");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto cells = parse_csv(folder_.read("results/ratios/cells.csv"));
-  ASSERT_EQ(cells.size(), 2U);
+  const auto configurations = parse_csv(folder_.read("results/ratios/configurations.csv"));
+  ASSERT_EQ(configurations.size(), 2U);
   const auto summary = parse_csv(folder_.read("results/ratios/summary.csv"));
-  EXPECT_EQ(cells[1].at("cell"), "RL");
-  EXPECT_EQ(cells[1].at("seeds"), "2");
-  EXPECT_NEAR(std::stod(cells[1].at("mse")),
+  EXPECT_EQ(configurations[1].at("configuration"), "RL");
+  EXPECT_EQ(configurations[1].at("seeds"), "2");
+  EXPECT_NEAR(std::stod(configurations[1].at("mse")),
               (std::stod(summary[2].at("mse")) + std::stod(summary[3].at("mse"))) / 2, 1e-12);
-  EXPECT_LT(std::stod(cells[1].at("mse_low")), std::stod(cells[1].at("mse")));
-  EXPECT_GT(std::stod(cells[1].at("mse_high")), std::stod(cells[1].at("mse")));
-  EXPECT_FALSE(cells[1].at("slope_mse").empty());
+  EXPECT_LT(std::stod(configurations[1].at("mse_low")), std::stod(configurations[1].at("mse")));
+  EXPECT_GT(std::stod(configurations[1].at("mse_high")), std::stod(configurations[1].at("mse")));
+  EXPECT_FALSE(configurations[1].at("slope_mse").empty());
   // E(mse) = variance + bias2 + reference noise holds for the means over seeds exactly.
-  for (const auto& cell : cells) {
-    EXPECT_NEAR(std::stod(cell.at("mse")),
-                std::stod(cell.at("variance")) + std::stod(cell.at("bias2")) +
+  for (const auto& configuration : configurations) {
+    EXPECT_NEAR(std::stod(configuration.at("mse")),
+                std::stod(configuration.at("variance")) + std::stod(configuration.at("bias2")) +
                     std::stod(summary[0].at("reference_mse")),
-                1e-6 * std::stod(cell.at("mse")));
+                1e-6 * std::stod(configuration.at("mse")));
   }
 
   const auto ratios = parse_csv(folder_.read("results/ratios/ratios.csv"));
   ASSERT_EQ(ratios.size(), 1U);
-  EXPECT_EQ(ratios[0].at("cell"), "RL");
+  EXPECT_EQ(ratios[0].at("configuration"), "RL");
   EXPECT_EQ(ratios[0].at("baseline"), "NEE, one ray");
   EXPECT_NEAR(std::stod(ratios[0].at("ratio_mse")),
-              std::stod(cells[0].at("mse")) / std::stod(cells[1].at("mse")), 1e-12);
-  EXPECT_EQ(ratios[0].at("target_mse"), cells[0].at("mse"));
+              std::stod(configurations[0].at("mse")) / std::stod(configurations[1].at("mse")), 1e-12);
+  EXPECT_EQ(ratios[0].at("target_mse"), configurations[0].at("mse"));
   EXPECT_TRUE(contains(outcome.out, "time to the baseline's relMSE"));
 }
 
@@ -59,19 +59,19 @@ TEST_F(RunProgram, BiasIsToldFromVariance) {
                    "clamped": {"reference.frames": 4096, "clamp_radiance": 0.3}}},
       {"seed": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]}], )");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto cells = parse_csv(folder_.read("results/bias/cells.csv"));
-  ASSERT_EQ(cells.size(), 2U);
-  EXPECT_LE(std::stod(cells[0].at("bias2_low")), 0) << "of whole samples";
-  EXPECT_EQ(std::stod(cells[0].at("abs_bias_low")), 0) << "of whole samples";
-  EXPECT_GT(std::stod(cells[1].at("abs_bias_low")), 0) << "of clamped samples";
-  EXPECT_LT(std::stod(cells[1].at("variance")), std::stod(cells[0].at("variance")));
+  const auto configurations = parse_csv(folder_.read("results/bias/configurations.csv"));
+  ASSERT_EQ(configurations.size(), 2U);
+  EXPECT_LE(std::stod(configurations[0].at("bias2_low")), 0) << "of whole samples";
+  EXPECT_EQ(std::stod(configurations[0].at("abs_bias_low")), 0) << "of whole samples";
+  EXPECT_GT(std::stod(configurations[1].at("abs_bias_low")), 0) << "of clamped samples";
+  EXPECT_LT(std::stod(configurations[1].at("variance")), std::stod(configurations[0].at("variance")));
 }
 
 TEST_F(RunProgram, AnUnknownBaselineIsRefused) {
   const Outcome outcome = run("lost", std::string(kMethods) + R"("baseline": "NEE, one rai", )");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(contains(outcome.err,
-                       "key 'baseline' is 'NEE, one rai' but must be a label or a cell of the sweep; "
+                       "key 'baseline' is 'NEE, one rai' but must be a label or a configuration of the sweep; "
                        "did you mean 'NEE, one ray'?"))
       << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));

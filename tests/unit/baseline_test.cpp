@@ -1,6 +1,6 @@
-// Which cells a baseline is compared with, and by how much.
+// Which configurations a baseline is compared with, and by how much.
 #include "experiments/records/ratios.h"
-#include "experiments/records/table.h"
+#include "experiments/records/summary_page.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ RunRecord record(const std::string& scene, const std::string& method, const std:
                  double seconds, double scale) {
   RunRecord result;
   result.run.id = scene + method + sites + std::to_string(seed);
-  result.run.cell = scene + " / " + method + " / " + sites;
+  result.run.configuration = scene + " / " + method + " / " + sites;
   result.run.labels = {scene, method, sites, std::to_string(seed)};
   result.scene = scene;
   result.status = "finished";
@@ -23,7 +23,7 @@ RunRecord record(const std::string& scene, const std::string& method, const std:
     next.frame = frame;
     next.host_ms = seconds * 1e3;
     next.elapsed_s = seconds * frame;
-    next.statistics.rays = 100;
+    next.counters.rays = 100;
     result.frames.push_back(next);
     if (frame == 3) continue;
     SnapshotRecord snapshot;
@@ -60,29 +60,29 @@ Experiment experiment(const std::string& baseline) {
 
 std::vector<std::string> pairs(const std::vector<Ratios>& ratios) {
   std::vector<std::string> names;
-  for (const Ratios& row : ratios) names.push_back(row.cell + " to " + row.baseline);
+  for (const Ratios& row : ratios) names.push_back(row.configuration + " to " + row.baseline);
   return names;
 }
 
 TEST(Baseline, ALabelIsTheBaselineOfCellsThatDifferInItAlone) {
   const std::vector<RunRecord> all = records();
-  EXPECT_EQ(pairs(baseline_ratios(experiment("NEE"), collect_cells(all))),
+  EXPECT_EQ(pairs(baseline_ratios(experiment("NEE"), collect_configurations(all))),
             (std::vector<std::string>{"a / RL / 10 to a / NEE / 10", "a / RL / 20 to a / NEE / 20",
                                       "b / RL / 10 to b / NEE / 10", "b / RL / 20 to b / NEE / 20"}));
 }
 
 TEST(Baseline, ACellIsTheBaselineOfItsNeighbours) {
   const std::vector<RunRecord> all = records();
-  EXPECT_EQ(pairs(baseline_ratios(experiment("a / NEE / 10"), collect_cells(all))),
+  EXPECT_EQ(pairs(baseline_ratios(experiment("a / NEE / 10"), collect_configurations(all))),
             (std::vector<std::string>{"a / NEE / 20 to a / NEE / 10", "a / RL / 10 to a / NEE / 10"}));
-  EXPECT_TRUE(baseline_ratios(experiment(""), collect_cells(all)).empty());
+  EXPECT_TRUE(baseline_ratios(experiment(""), collect_configurations(all)).empty());
 }
 
 // RL with ten sites has half the error and half the seconds per frame: it reaches the error of four frames of
 // NEE after two frames, in a quarter of the time. With twenty sites it never does.
 TEST(Baseline, RatiosAreTheBaselinesFigureOverTheCells) {
   const std::vector<RunRecord> all = records();
-  const std::vector<Ratios> ratios = baseline_ratios(experiment("NEE"), collect_cells(all));
+  const std::vector<Ratios> ratios = baseline_ratios(experiment("NEE"), collect_configurations(all));
   const Ratios& fast = ratios.at(0);
   EXPECT_NEAR(fast.figures.at("host_ms_median").value, 2, 1e-12);
   EXPECT_NEAR(*fast.figures.at("host_ms_median").low, 2, 1e-12);  // no scatter

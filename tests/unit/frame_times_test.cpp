@@ -21,7 +21,7 @@ RunRecord record_of(const std::vector<double>& times) {
     FrameRecord frame;
     frame.is_warmup = i == 0;
     frame.host_ms = times[i];
-    frame.statistics.rays = 1'000'000;
+    frame.counters.rays = 1'000'000;
     record.frames.push_back(frame);
   }
   return record;
@@ -61,7 +61,7 @@ TEST(FrameTimes, NoiseIsSpreadOrManyOutliers) {
 TEST(FrameTimes, LongerPathsAreNoNoise) {
   RunRecord record = record_of(steady());
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    record.frames[i].statistics.rays *= i + 1;
+    record.frames[i].counters.rays *= i + 1;
     record.frames[i].host_ms *= static_cast<double>(i + 1);
   }
   EXPECT_EQ(is_noisy(settled_times(record)), false);
@@ -76,8 +76,8 @@ RunRecord learning_record() {
     const bool teaches = i < 16 || i % 4 == 0;
     const bool asks = i < 16 || i > 23 || i % 2 == 0;
     FrameRecord& frame = record.frames[i];
-    frame.statistics.table_updates = teaches && asks ? 1000 : 0;
-    frame.statistics.cell_lookups = asks ? 1000 : 0;
+    frame.counters.table_updates = teaches && asks ? 1000 : 0;
+    frame.counters.cell_lookups = asks ? 1000 : 0;
     frame.host_ms = (asks ? teaches ? 150 : 110 : 80) + static_cast<double>(i % 3) - 1;
   }
   return record;

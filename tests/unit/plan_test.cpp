@@ -9,15 +9,15 @@
 namespace qtrace::experiments {
 namespace {
 
-// Cells a, b, c with two seeds each.
+// Configurations a, b, c with two seeds each.
 Experiment six_runs(int frames = 64) {
   Experiment experiment;
   experiment.file = "x.json";
-  for (const char* cell : {"a", "b", "c"}) {
+  for (const char* configuration : {"a", "b", "c"}) {
     for (const char* seed : {"1", "2"}) {
       Run run;
-      run.cell = cell;
-      run.id = run.cell + ",seed=" + seed;
+      run.configuration = configuration;
+      run.id = run.configuration + ",seed=" + seed;
       run.config.frames = frames;
       experiment.runs.push_back(run);
     }
@@ -41,7 +41,7 @@ std::string text(const Experiment& experiment, const std::vector<Step>& steps) {
   std::string all;
   for (const Step& step : steps) {
     const Run& run = experiment.runs[step.turn.place];
-    all += run.cell + std::to_string(step.turn.repetition + 1) + ":" + std::to_string(step.until) + " ";
+    all += run.configuration + std::to_string(step.turn.repetition + 1) + ":" + std::to_string(step.until) + " ";
   }
   return all;
 }

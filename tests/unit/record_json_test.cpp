@@ -20,8 +20,8 @@ RunRecord full_record() {
   record.setup_s = 0.1;
   for (int i = 1; i <= 3; ++i) {
     FrameRecord frame{i, i == 1, i / 3.0, i / 7.0, i / 11.0, i / 13.0, {}};
-    frame.statistics.paths = (std::uint64_t{1} << 63U) + static_cast<std::uint64_t>(i);
-    frame.statistics.clamped_samples = 5;
+    frame.counters.paths = (std::uint64_t{1} << 63U) + static_cast<std::uint64_t>(i);
+    frame.counters.clamped_samples = 5;
     record.frames.push_back(frame);
   }
   SnapshotRecord snapshot;
@@ -53,7 +53,7 @@ TEST(RecordJson, ComesBackFromCborWithEveryDigit) {
   RunRecord back;
   unpack(Json::from_cbor(bytes), back);
   EXPECT_EQ(texts(record), texts(back));
-  EXPECT_EQ(back.frames[2].statistics.paths, record.frames[2].statistics.paths);
+  EXPECT_EQ(back.frames[2].counters.paths, record.frames[2].counters.paths);
   EXPECT_FALSE(back.snapshots[0].filtered.has_value());
 }
 

@@ -1,5 +1,5 @@
-// table.md from records that are made up.
-#include "experiments/records/table.h"
+// summary.md from records that are made up.
+#include "experiments/records/summary_page.h"
 #include "experiments/files/text_table.h"
 
 #include <gtest/gtest.h>
@@ -93,9 +93,9 @@ TEST(RecordsTable, FilteredImagesAreToldApartWithoutAxesToo) {
 
 TEST(RecordsTable, FirefliesHaveAColumnAndClampingALine) {
   RunRecord run = record("simple", "RL", 20, 0.5);
-  run.frames[0].statistics.paths = 1'000'000;
-  run.frames[0].statistics.fireflies = 12;
-  run.frames[0].statistics.clamped_samples = 34;
+  run.frames[0].counters.paths = 1'000'000;
+  run.frames[0].counters.fireflies = 12;
+  run.frames[0].counters.clamped_samples = 34;
   std::string table = experiment_table(experiment(), {run}, {}, "d");
   EXPECT_TRUE(contains(table, "| fireflies / M samples |")) << table;
   EXPECT_TRUE(contains(table, "|                    12 |")) << table;

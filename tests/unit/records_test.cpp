@@ -1,6 +1,6 @@
 // CSV after RFC 4180, and the columns.
 #include "experiments/records/records.h"
-#include "experiments/records/cells.h"
+#include "experiments/records/configurations.h"
 
 #include <gtest/gtest.h>
 
@@ -59,21 +59,21 @@ FrameRecord frame_record(int frame, double host_ms, double elapsed_s) {
   record.host_ms = host_ms;
   record.gpu_ms = host_ms / 2;
   record.elapsed_s = elapsed_s;
-  record.statistics.paths = 10;
-  record.statistics.path_segments = 25;
-  record.statistics.zero_paths = 4;
-  record.statistics.non_finite = 1;
-  record.statistics.fireflies = 2;
-  record.statistics.clamped_samples = 5;
+  record.counters.paths = 10;
+  record.counters.path_segments = 25;
+  record.counters.zero_paths = 4;
+  record.counters.non_finite = 1;
+  record.counters.fireflies = 2;
+  record.counters.clamped_samples = 5;
   return record;
 }
 
 // Three frames of 100, 2 and 4 ms, the first to warm up; relmse 0.5.
-RunRecord run_record(const std::string& cell, std::uint32_t seed, double relmse) {
+RunRecord run_record(const std::string& configuration, std::uint32_t seed, double relmse) {
   RunRecord record;
-  record.run.id = cell + "-" + std::to_string(seed);
-  record.run.cell = cell;
-  record.run.labels = {cell, std::to_string(seed)};
+  record.run.id = configuration + "-" + std::to_string(seed);
+  record.run.configuration = configuration;
+  record.run.labels = {configuration, std::to_string(seed)};
   record.run.config.render.seed = seed;
   record.run.config.frames = 3;
   record.scene = "box";
@@ -189,18 +189,18 @@ TEST(Records, FailedRunsHaveNoErrorsButAReason) {
 }
 
 TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
-  const auto columns = cell_columns({Axis{"method", false, {}}, Axis{"seed", true, {}}});
+  const auto columns = configuration_columns({Axis{"method", false, {}}, Axis{"seed", true, {}}});
   expect_distinct(columns);
-  const Cell cell = collect_cells({run_record("RL", 1, 0.25), run_record("RL", 2, 0.75)}).front();
-  EXPECT_EQ(field(columns, cell, "axis:method"), "RL");
-  EXPECT_EQ(field(columns, cell, "axis:seed"), "no such column");
-  EXPECT_EQ(field(columns, cell, "seeds"), "2");
-  EXPECT_EQ(field(columns, cell, "relmse"), "0.5");
-  EXPECT_NEAR(std::stod(field(columns, cell, "relmse_sd")), std::sqrt(0.125), 1e-15);
-  EXPECT_NEAR(std::stod(field(columns, cell, "relmse_high")), 0.5 * std::exp(12.7062 * 0.25 / 0.5), 0.05);
-  EXPECT_NEAR(std::stod(field(columns, cell, "clamp_bias_low")), -0.0625 - 12.7062 * 0.03125, 1e-5);
-  EXPECT_EQ(field(columns, cell, "flip"), "");
-  const Cell lonely = collect_cells({run_record("RL", 1, 0.25)}).front();
+  const Configuration configuration = collect_configurations({run_record("RL", 1, 0.25), run_record("RL", 2, 0.75)}).front();
+  EXPECT_EQ(field(columns, configuration, "axis:method"), "RL");
+  EXPECT_EQ(field(columns, configuration, "axis:seed"), "no such column");
+  EXPECT_EQ(field(columns, configuration, "seeds"), "2");
+  EXPECT_EQ(field(columns, configuration, "relmse"), "0.5");
+  EXPECT_NEAR(std::stod(field(columns, configuration, "relmse_sd")), std::sqrt(0.125), 1e-15);
+  EXPECT_NEAR(std::stod(field(columns, configuration, "relmse_high")), 0.5 * std::exp(12.7062 * 0.25 / 0.5), 0.05);
+  EXPECT_NEAR(std::stod(field(columns, configuration, "clamp_bias_low")), -0.0625 - 12.7062 * 0.03125, 1e-5);
+  EXPECT_EQ(field(columns, configuration, "flip"), "");
+  const Configuration lonely = collect_configurations({run_record("RL", 1, 0.25)}).front();
   EXPECT_EQ(field(columns, lonely, "relmse"), "0.25");
   EXPECT_EQ(field(columns, lonely, "relmse_low"), "");
 }
@@ -208,23 +208,23 @@ TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
 TEST(Records, CellsPoolFramesAndAverageErrors) {
   RunRecord failed = run_record("RL", 3, 0);
   failed.status = "failed";
-  const std::vector<Cell> cells =
-      collect_cells({run_record("RL", 1, 0.25), run_record("NEE", 1, 1), run_record("RL", 2, 0.75), failed});
-  ASSERT_EQ(cells.size(), 2U);
-  EXPECT_EQ(cells[0].name, "RL");
-  EXPECT_EQ(cells[0].runs, 3U);
-  EXPECT_EQ(cells[0].finished, 2U);
-  EXPECT_EQ(cells[0].host_ms->median, 3);
-  EXPECT_EQ(cells[0].relmse->mean, 0.5);
-  EXPECT_TRUE(cells[0].relmse->low.has_value());
-  EXPECT_NEAR(cells[0].relmse_x_s->mean, 0.5 * 0.106, 1e-15);
-  EXPECT_EQ(cells[0].non_finite, 9U);
-  EXPECT_EQ(cells[0].clamped_samples, 45U);
-  EXPECT_EQ(cells[0].fireflies_per_million->mean, 200000);
-  EXPECT_EQ(cells[0].fireflies_per_million->sd, 0);
-  EXPECT_EQ(cells[0].clamp_bias->mean, -0.0625);
-  EXPECT_FALSE(cells[0].relmse_filtered.has_value());
-  EXPECT_FALSE(cells[1].relmse->low.has_value());
+  const std::vector<Configuration> configurations =
+      collect_configurations({run_record("RL", 1, 0.25), run_record("NEE", 1, 1), run_record("RL", 2, 0.75), failed});
+  ASSERT_EQ(configurations.size(), 2U);
+  EXPECT_EQ(configurations[0].name, "RL");
+  EXPECT_EQ(configurations[0].runs, 3U);
+  EXPECT_EQ(configurations[0].finished, 2U);
+  EXPECT_EQ(configurations[0].host_ms->median, 3);
+  EXPECT_EQ(configurations[0].relmse->mean, 0.5);
+  EXPECT_TRUE(configurations[0].relmse->low.has_value());
+  EXPECT_NEAR(configurations[0].relmse_x_s->mean, 0.5 * 0.106, 1e-15);
+  EXPECT_EQ(configurations[0].non_finite, 9U);
+  EXPECT_EQ(configurations[0].clamped_samples, 45U);
+  EXPECT_EQ(configurations[0].fireflies_per_million->mean, 200000);
+  EXPECT_EQ(configurations[0].fireflies_per_million->sd, 0);
+  EXPECT_EQ(configurations[0].clamp_bias->mean, -0.0625);
+  EXPECT_FALSE(configurations[0].relmse_filtered.has_value());
+  EXPECT_FALSE(configurations[1].relmse->low.has_value());
 }
 
 }  // namespace

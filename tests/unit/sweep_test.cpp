@@ -48,7 +48,7 @@ TEST(Sweep, IsTheProductOfItsAxesLastFastest) {
   ASSERT_EQ(experiment.runs.size(), 8U);
   const auto& first = experiment.runs.front();
   EXPECT_EQ(first.id, "scene=simple,method=nee-two-rays,seed=1");
-  EXPECT_EQ(first.cell, "simple / NEE, two rays");
+  EXPECT_EQ(first.configuration, "simple / NEE, two rays");
   EXPECT_EQ(first.labels, (std::vector<std::string>{"simple", "NEE, two rays", "1"}));
   EXPECT_EQ(first.config.render.nee, Nee::two_ray);
   EXPECT_EQ(experiment.runs[1].id, "scene=simple,method=nee-two-rays,seed=2");
@@ -208,7 +208,7 @@ TEST(Sweep, PublishedFiguresOfUnknownCellsAreWarnedOf) {
   EXPECT_EQ(experiment.published.ms_per_frame.find("none"), nullptr);
 }
 
-TEST(Sweep, TheBaselineIsALabelOfOneAxisOrACell) {
+TEST(Sweep, TheBaselineIsALabelOfOneAxisOrAConfiguration) {
   const std::string axes =
       R"([{"m": {"RL": {}, "NEE": {"sampler": "bsdf"}}}, {"frames": [2, 4]}, {"max_bounces": [4, 5]}])";
   EXPECT_EQ(sweep(axes, R"("baseline": "NEE", )").baseline, "NEE");

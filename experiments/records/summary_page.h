@@ -1,4 +1,4 @@
-// table.md: what an experiment found, for people.
+// summary.md: what an experiment found, for people.
 #pragma once
 
 #include "experiments/config/experiment_config.h"
@@ -11,7 +11,7 @@
 
 namespace qtrace::experiments {
 
-// Markdown: per scene one table with a row per cell, published figures and ratios beside the measured ones,
+// Markdown: per scene one table with a row per configuration, published figures and ratios beside the measured ones,
 // then the references and what the columns hold.
 std::string experiment_table(const Experiment& experiment, const std::vector<RunRecord>& records,
                              const std::map<std::string, Reference>& references, const std::string& device);

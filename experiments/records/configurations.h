@@ -1,4 +1,4 @@
-// Cells of a sweep (not of a Q-table): runs that differ in their seed alone, taken together.
+// Configurations of a sweep (not of a Q-table): runs that differ in their seed alone, taken together.
 #pragma once
 
 #include "experiments/measure/error_parts.h"
@@ -21,7 +21,7 @@ struct FrameTimes {
 
 // Estimates are over the finished seeds; where none finished, over those partial ones that came furthest;
 // else empty.
-struct Cell {
+struct Configuration {
   std::string name;  // axis labels but the seed, joined by " / "
   std::string scene;
   std::vector<std::string> labels;  // one per axis, of the first run
@@ -42,22 +42,22 @@ struct Cell {
   std::uint64_t non_finite = 0;
   std::size_t at_reference_floor = 0;           // seeds
   std::map<std::string, std::size_t> verdicts;  // seeds by word; empty where nothing was expected
-  std::vector<const RunRecord*> members;    // those that count, among the records that the cell is made of
+  std::vector<const RunRecord*> members;    // those that count, among the records that the configuration is made of
   std::optional<ErrorParts> parts;          // filled in from the images when all runs are done
   std::map<std::string, Estimate> figures;  // by column of summary.csv; a seed without a value is not in it
 };
 
-// The columns of summary.csv that cells.csv takes over the seeds of a cell.
-struct CellFigure {
+// The columns of summary.csv that configurations.csv takes over the seeds of a configuration.
+struct ConfigurationFigure {
   std::string column;
   bool is_signed = false;  // symmetric interval
 };
-const std::vector<CellFigure>& cell_figures();
+const std::vector<ConfigurationFigure>& configuration_figures();
 
-// cells.csv: seeds, then mean, _sd, _low and _high of every figure.
-std::vector<Column<Cell>> cell_columns(const std::vector<Axis>& axes);
+// configurations.csv: seeds, then mean, _sd, _low and _high of every figure.
+std::vector<Column<Configuration>> configuration_columns(const std::vector<Axis>& axes);
 
 // In the order of their first runs.
-std::vector<Cell> collect_cells(const std::vector<RunRecord>& records);
+std::vector<Configuration> collect_configurations(const std::vector<RunRecord>& records);
 
 }  // namespace qtrace::experiments

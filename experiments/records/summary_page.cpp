@@ -1,6 +1,6 @@
-#include "experiments/records/table.h"
+#include "experiments/records/summary_page.h"
 
-#include "experiments/records/cell_table.h"
+#include "experiments/records/configuration_table.h"
 #include "experiments/records/frame_times.h"
 #include "experiments/runtime/manifest.h"
 #include "experiments/records/ratios.h"
@@ -10,19 +10,19 @@
 namespace qtrace::experiments {
 namespace {
 
-// The cell that differs from `cell` in one label alone: `from` there, `to` here.
-const Cell* counterpart(const Cell& cell, const std::vector<const Cell*>& cells, const std::string& from,
+// The configuration that differs from `configuration` in one label alone: `from` there, `to` here.
+const Configuration* counterpart(const Configuration& configuration, const std::vector<const Configuration*>& configurations, const std::string& from,
                         const std::string& to) {
-  std::vector<std::string> wanted = cell.labels;
+  std::vector<std::string> wanted = configuration.labels;
   const auto place = std::find(wanted.begin(), wanted.end(), from);
   if (place == wanted.end()) return nullptr;
   *place = to;
-  const auto found = std::find_if(cells.begin(), cells.end(),
-                                  [&wanted](const Cell* other) { return other->labels == wanted; });
-  return found == cells.end() ? nullptr : *found;
+  const auto found = std::find_if(configurations.begin(), configurations.end(),
+                                  [&wanted](const Configuration* other) { return other->labels == wanted; });
+  return found == configurations.end() ? nullptr : *found;
 }
 
-std::string ratio_line(const Experiment& experiment, const Cell& above, const Cell& below) {
+std::string ratio_line(const Experiment& experiment, const Configuration& above, const Configuration& below) {
   std::string line = fmt::format("- {} over {}: ", above.name, below.name);
   line += above.host_ms && below.host_ms
               ? fmt::format("{:.3g} × the host time per frame", above.host_ms->median / below.host_ms->median)
@@ -38,24 +38,24 @@ std::string ratio_line(const Experiment& experiment, const Cell& above, const Ce
   return line + '\n';
 }
 
-std::string ratio_lines(const Experiment& experiment, const std::vector<const Cell*>& cells) {
+std::string ratio_lines(const Experiment& experiment, const std::vector<const Configuration*>& configurations) {
   std::string lines;
   const auto& [above_label, below_label] = experiment.published.ratio;
   if (above_label.empty() || below_label.empty()) return lines;
-  for (const Cell* cell : cells) {
-    const Cell* below = counterpart(*cell, cells, above_label, below_label);
-    if (below != nullptr) lines += ratio_line(experiment, *cell, *below);
+  for (const Configuration* configuration : configurations) {
+    const Configuration* below = counterpart(*configuration, configurations, above_label, below_label);
+    if (below != nullptr) lines += ratio_line(experiment, *configuration, *below);
   }
   return lines.empty() ? lines : '\n' + lines;
 }
 
-std::string clamping_lines(const std::vector<const Cell*>& cells) {
+std::string clamping_lines(const std::vector<const Configuration*>& configurations) {
   std::string lines;
-  for (const Cell* cell : cells) {
-    if (cell->clamp_radiance == 0) continue;
+  for (const Configuration* configuration : configurations) {
+    if (configuration->clamp_radiance == 0) continue;
     lines += fmt::format(
         "- {}: clamped (biased): clamp_radiance {:g} scaled down {} samples and changed the mean by {}\n",
-        cell->name, cell->clamp_radiance, cell->clamped_samples, estimate_text(cell->clamp_bias));
+        configuration->name, configuration->clamp_radiance, configuration->clamped_samples, estimate_text(configuration->clamp_bias));
   }
   return lines.empty() ? lines : '\n' + lines;
 }
@@ -85,16 +85,16 @@ std::string reference_lines(const std::map<std::string, Reference>& references) 
 // Where the interval of a slope lies beyond this distance from -1, something is worth a look.
 constexpr double kSlopeTolerance = 0.1;
 
-std::string slope_lines(const std::vector<Cell>& cells) {
+std::string slope_lines(const std::vector<Configuration>& configurations) {
   std::string lines;
-  for (const Cell& cell : cells) {
+  for (const Configuration& configuration : configurations) {
     for (const char* figure : {"slope_mse", "slope_relmse"}) {
-      const auto found = cell.figures.find(figure);
-      if (found == cell.figures.end() || !found->second.low) continue;
+      const auto found = configuration.figures.find(figure);
+      if (found == configuration.figures.end() || !found->second.low) continue;
       const bool is_steep = *found->second.high < -1 - kSlopeTolerance;
       const bool is_flat = *found->second.low > -1 + kSlopeTolerance;
       if (!is_steep && !is_flat) continue;
-      lines += fmt::format("- {}: {} against spp {}: {}\n", cell.name, figure, estimate_text(found->second),
+      lines += fmt::format("- {}: {} against spp {}: {}\n", configuration.name, figure, estimate_text(found->second),
                            is_steep ? "steeper than -1: still learning, or rare bright samples came early"
                                     : "flatter than -1: biased, heavy-tailed, or near the reference's noise");
     }
@@ -120,7 +120,7 @@ std::string unfinished_lines(const Experiment& experiment, const std::vector<Run
   const std::size_t missing = experiment.runs.size() - records.size();
   if (partial == 0 && missing == 0) return "";
   return fmt::format(
-      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their cell is "
+      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their configuration is "
       "finished), "
       "{} not begun, of {}.\n",
       partial, missing, experiment.runs.size());
@@ -154,7 +154,7 @@ std::string notes(const Experiment& experiment) {
   if (!experiment.baseline.empty()) {
     text +=
         "\nRatios to the baseline: means over seeds, with 95 % intervals as if the seeds of the two were "
-        "independent. Time to the baseline's relMSE: until the cell's mean error is what the baseline has at "
+        "independent. Time to the baseline's relMSE: until the configuration's mean error is what the baseline has at "
         "its "
         "end, between snapshots by straight lines in the logarithms; '-' where it was never reached, or "
         "before "
@@ -169,21 +169,21 @@ std::string notes(const Experiment& experiment) {
 
 std::string experiment_table(const Experiment& experiment, const std::vector<RunRecord>& records,
                              const std::map<std::string, Reference>& references, const std::string& device) {
-  const std::vector<Cell> cells = collect_cells(records);
-  std::vector<std::pair<std::string, std::vector<const Cell*>>> scenes;
-  for (const Cell& cell : cells) {
+  const std::vector<Configuration> configurations = collect_configurations(records);
+  std::vector<std::pair<std::string, std::vector<const Configuration*>>> scenes;
+  for (const Configuration& configuration : configurations) {
     auto scene = std::find_if(scenes.begin(), scenes.end(),
-                              [&cell](const auto& entry) { return entry.first == cell.scene; });
-    if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {cell.scene, {}});
-    scene->second.push_back(&cell);
+                              [&configuration](const auto& entry) { return entry.first == configuration.scene; });
+    if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {configuration.scene, {}});
+    scene->second.push_back(&configuration);
   }
-  const std::vector<Ratios> ratios = baseline_ratios(experiment, cells);
+  const std::vector<Ratios> ratios = baseline_ratios(experiment, configurations);
   std::string text = fmt::format("# {}\n\nDevice: {}\n", experiment.name, device);
   for (const auto& [scene, rows] : scenes) {
-    text += fmt::format("\n## {}\n\n", scene) + cell_table(experiment, rows) + ratio_lines(experiment, rows) +
+    text += fmt::format("\n## {}\n\n", scene) + configuration_table(experiment, rows) + ratio_lines(experiment, rows) +
             ratio_table(ratios, scene) + clamping_lines(rows);
   }
-  return text + slope_lines(cells) + time_lines(records) + failure_lines(records) +
+  return text + slope_lines(configurations) + time_lines(records) + failure_lines(records) +
          unfinished_lines(experiment, records) + verdict_lines(records) + reference_lines(references) +
          notes(experiment);
 }

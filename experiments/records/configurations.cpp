@@ -1,4 +1,4 @@
-#include "experiments/records/cells.h"
+#include "experiments/records/configurations.h"
 
 #include "engine/core/check.h"
 
@@ -21,7 +21,7 @@ std::optional<FrameTimes> pooled_times(const Members& runs, std::vector<double> 
 std::map<std::string, Estimate> estimate_figures(const Members& runs) {
   std::map<std::string, Estimate> figures;
   const std::vector<Column<RunRecord>> columns = run_columns({});
-  for (const CellFigure& figure : cell_figures()) {
+  for (const ConfigurationFigure& figure : configuration_figures()) {
     const auto column = std::ranges::find(columns, figure.column, &Column<RunRecord>::name);
     check(column != columns.end(), "summary.csv has no column '{}'", figure.column);
     std::vector<double> values;
@@ -50,22 +50,22 @@ Members chosen(const Members& members) {
   return finished.empty() ? furthest : finished;
 }
 
-Cell make_cell(const Members& members) {
+Configuration make_configuration(const Members& members) {
   const RunRecord& first = *members.front();
-  Cell cell;
-  cell.name = first.run.cell;
-  cell.scene = first.scene;
-  cell.labels = first.run.labels;
-  cell.planned_frames = first.run.config.frames;
-  cell.clamp_radiance = first.run.config.render.clamp_radiance;
-  cell.runs = members.size();
+  Configuration configuration;
+  configuration.name = first.run.configuration;
+  configuration.scene = first.scene;
+  configuration.labels = first.run.labels;
+  configuration.planned_frames = first.run.config.frames;
+  configuration.clamp_radiance = first.run.config.render.clamp_radiance;
+  configuration.runs = members.size();
   const Members counted = chosen(members);
-  cell.frames = counted.empty() ? cell.planned_frames : static_cast<int>(counted.front()->frames.size());
+  configuration.frames = counted.empty() ? configuration.planned_frames : static_cast<int>(counted.front()->frames.size());
   std::vector<double> relmse, elapsed, inefficiency, filtered, fireflies, bias;
   for (const RunRecord* run : members) {
-    cell.non_finite += run->totals().non_finite;
-    cell.clamped_samples += run->totals().clamped_samples;
-    if (run->verdict) ++cell.verdicts[run->verdict->word];
+    configuration.non_finite += run->totals().non_finite;
+    configuration.clamped_samples += run->totals().clamped_samples;
+    if (run->verdict) ++configuration.verdicts[run->verdict->word];
   }
   for (const RunRecord* run : counted) {
     const ErrorMetrics* errors = run->final_errors();
@@ -75,35 +75,35 @@ Cell make_cell(const Members& members) {
     if (const FilteredRecord* record = run->final_filtered()) filtered.push_back(record->errors.relmse);
     if (const auto rate = run->fireflies_per_million()) fireflies.push_back(*rate);
     bias.push_back(run->last_snapshot()->clamp_bias);
-    if (errors->at_reference_floor()) ++cell.at_reference_floor;
+    if (errors->at_reference_floor()) ++configuration.at_reference_floor;
   }
-  cell.finished = counted.size();
-  cell.host_ms = pooled_times(counted, &RunRecord::host_ms);
-  cell.gpu_ms = pooled_times(counted, &RunRecord::gpu_ms);
-  cell.relmse = estimate(relmse);
-  cell.elapsed_s = estimate(elapsed);
-  cell.relmse_x_s = estimate(inefficiency);
-  cell.relmse_filtered = estimate(filtered);
-  cell.fireflies_per_million = estimate(fireflies);
-  cell.clamp_bias = signed_estimate(bias);
-  cell.members = counted;
-  cell.figures = estimate_figures(counted);
-  return cell;
+  configuration.finished = counted.size();
+  configuration.host_ms = pooled_times(counted, &RunRecord::host_ms);
+  configuration.gpu_ms = pooled_times(counted, &RunRecord::gpu_ms);
+  configuration.relmse = estimate(relmse);
+  configuration.elapsed_s = estimate(elapsed);
+  configuration.relmse_x_s = estimate(inefficiency);
+  configuration.relmse_filtered = estimate(filtered);
+  configuration.fireflies_per_million = estimate(fireflies);
+  configuration.clamp_bias = signed_estimate(bias);
+  configuration.members = counted;
+  configuration.figures = estimate_figures(counted);
+  return configuration;
 }
 
 }  // namespace
 
-std::vector<Cell> collect_cells(const std::vector<RunRecord>& records) {
+std::vector<Configuration> collect_configurations(const std::vector<RunRecord>& records) {
   std::vector<std::pair<std::string, Members>> groups;
   for (const RunRecord& record : records) {
     auto group = std::find_if(groups.begin(), groups.end(),
-                              [&record](const auto& entry) { return entry.first == record.run.cell; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {record.run.cell, {}});
+                              [&record](const auto& entry) { return entry.first == record.run.configuration; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {record.run.configuration, {}});
     group->second.push_back(&record);
   }
-  std::vector<Cell> cells;
-  for (const auto& [name, members] : groups) cells.push_back(make_cell(members));
-  return cells;
+  std::vector<Configuration> configurations;
+  for (const auto& [name, members] : groups) configurations.push_back(make_configuration(members));
+  return configurations;
 }
 
 }  // namespace qtrace::experiments

@@ -28,7 +28,7 @@ struct Outliers {
 };
 
 // Counts of one frame.
-struct FrameStatistics {
+struct FrameCounters {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;               // all rays traced, camera and shadow rays included
   std::uint64_t path_segments = 0;      // rays of the paths themselves, camera rays included
