@@ -8,7 +8,10 @@
 #include "geometry/traverse_threaded.glsl"
 #else
 #include "geometry/wide_nodes.glsl"
-#if FETCH == FETCH_IMAGE
+// In the order of StackPlace (engine/gpu/driver.h).
+#define STACK_MEMORY 0
+#define STACK_REGISTERS 1
+#if STACK == STACK_REGISTERS
 #include "geometry/traverse_registers.glsl"
 #else
 #include "geometry/traverse_ordered.glsl"

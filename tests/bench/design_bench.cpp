@@ -11,6 +11,7 @@
 #include "tests/bench/rounds.h"
 #include "tests/bench/scenes.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
