@@ -1,7 +1,8 @@
 #include "engine/tracer/inspection.h"
 
-#include "engine/gpu/program.h"
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
+#include "engine/gpu/program.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/limits.h"

@@ -1,4 +1,5 @@
 // What the device finds in the grid of cells: the box that the hit lies in, and the axis of its normal.
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gltf/load_gltf.h"

@@ -1,4 +1,5 @@
 // Lights: what belongs together, how each rule chooses, and what a choice teaches.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/alias_table.h"
 #include "engine/device_scene/light_table.h"
 #include "tests/support/learning_stage.h"

@@ -1,4 +1,5 @@
 // The rules at work: what their tables approach in closed scenes whose incident radiance is known.
+#include "engine/accel/build_bvh.h"
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"

@@ -1,4 +1,5 @@
 // Chi-squared: every direction sampler draws in proportion to the density that it states, on the device.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"

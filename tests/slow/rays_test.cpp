@@ -1,5 +1,6 @@
 // Ray queries by the million: against the oracle in double precision, every difference explained, and into
 // closed surfaces, which no ray may leave.
+#include "engine/accel/build_bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/gpu/driver.h"
 #include "engine/device_scene/scene_buffers.h"

@@ -1,6 +1,7 @@
 // A small table over a lit floor, taught by hand.
 #pragma once
 
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"

@@ -1,3 +1,4 @@
+#include "engine/accel/median_bvh.h"
 #include "engine/accel/reinsertion.h"
 #include "engine/accel/bvh_tree.h"
 #include "engine/accel/traverse.h"
