@@ -112,6 +112,7 @@ TEST(Config, MessagesAreOneLineOfUtf8WhateverTheFileHolds) {
                                   config_text("\"width\": \"" + std::string(58, 'x') + "\u20ac\u20ac\", "),
                                   config_text("\"" + long_key + "\": 1, ")}) {
     const std::string error = error_of(text);
+    EXPECT_NE(error, "no error");
     EXPECT_LT(error.size(), 1200U);
     EXPECT_EQ(one_line(error, 2000), error);
   }

@@ -115,8 +115,10 @@ TEST(ConfigKeys, NearestKnowsDistances) {
 constexpr const char* kMadeOnDemand = "five_million.glb";
 
 TEST(ConfigShipped, AllConfigsOfTheRepositoryAreValid) {
+  int configs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(QTRACE_SOURCE_DIR "/configs")) {
     if (entry.path().extension() != ".json") continue;
+    ++configs;
     const Experiment experiment = load_experiment(entry.path());
     EXPECT_EQ(experiment.name, entry.path().stem().string());
     EXPECT_TRUE(experiment.warnings.empty()) << experiment.warnings.front();
@@ -125,7 +127,9 @@ TEST(ConfigShipped, AllConfigsOfTheRepositoryAreValid) {
       if (scene.filename() == kMadeOnDemand) continue;
       EXPECT_TRUE(std::filesystem::exists(scene)) << scene;
     }
+    EXPECT_FALSE(experiment.runs.empty());
   }
+  EXPECT_GT(configs, 10);
 }
 
 // The fuzzer's own seed, which has every form that a config may take.
