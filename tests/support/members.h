@@ -99,7 +99,7 @@ void find_differences(const T& a, const T& b, const std::string& place, std::vec
     for (std::size_t i = 0; i < a.size(); ++i) {
       find_differences(a[i], b[i], place + "[" + std::to_string(i) + "]", found);
     }
-  } else if constexpr (std::equality_comparable<T>) {
+  } else if constexpr (!std::is_aggregate_v<T>) {
     if (!(a == b)) found.push_back(place);
   } else {
     const auto other = members(b);
