@@ -45,7 +45,7 @@ struct Tracer::State {
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
-      table.emplace(scene, settings.rl, table_columns(settings, buffers.features()), defines,
+      table.emplace(scene, settings.rl, table_actions(settings, buffers.features()), defines,
                     context.programs());
       defines = with_cells(defines, table->cells());
     }
@@ -160,7 +160,7 @@ void Tracer::render_frame() {
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
 
-FrameCounters Tracer::last_frame_counters() const { return state_->film.statistics(); }
+FrameCounters Tracer::last_frame_counters() const { return state_->film.counters(); }
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
 

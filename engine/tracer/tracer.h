@@ -62,7 +62,7 @@ class Tracer {
   std::optional<double> trial_gain() const;
   bool gave_table_up() const;  // frames after the trial leave it out
 
-  std::uint64_t cells() const;         // rows of the table; 0 where there is none
+  std::uint64_t cells() const;         // states of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers
 
  private:
