@@ -60,7 +60,7 @@ class Look:
     rc: dict[str, Any]
     width: float       # inches
     row_height: float  # of a row of panels
-    line_height: float  # of one cell's line where cells are listed
+    line_height: float  # of one line where configurations are listed
     note_size: float
     words: bool        # title and caption inside the figure: a paper sets its own
 
@@ -68,6 +68,22 @@ class Look:
 SCREEN = Look(RC, 11.0, 3.7, 0.3, 8.5, True)
 COLUMN = Look(PRINT_RC, 3.33, 2.1, 0.145, 7, False)  # of two, as ACM's and IEEE's papers have
 PAGE = Look(PRINT_RC, 7.0, 2.1, 0.145, 7, False)     # both columns
+
+
+@dataclass(frozen=True)
+class Medium:
+    """What figures are made for: the look of those that take the whole width, and of those that a column can hold."""
+
+    page: Look
+    column: Look
+
+    @property
+    def is_print(self) -> bool:
+        return not self.page.words
+
+
+ON_SCREEN = Medium(SCREEN, SCREEN)
+IN_PRINT = Medium(PAGE, COLUMN)
 
 
 def line_styles(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
