@@ -39,7 +39,7 @@ def _write(made: Drawing | Text, place: Path, formats: list[str], medium: style.
     for kind in formats:
         file = place.with_name(f"{place.name}.{kind}")
         with matplotlib.rc_context({**medium.page.rc, **made.rc}):
-            command.write_whole(file, lambda target: made.figure.savefig(target, format=kind, dpi=DPI[kind],
+            command.write_whole(file, lambda target: made.figure.savefig(target, format=kind, dpi=made.dpi or DPI[kind],
                                                                         metadata=FORMATS[kind]))
         yield file
 

@@ -23,18 +23,16 @@ from analysis.metrics import errors, floor_column
 from analysis.points import over_seeds
 
 X_AXES = {"spp": "samples per pixel (spp)", "seconds": "render time (s), learning included"}
-FLOOR_REACH = 100  # a floor this much below all curves is named rather than drawn, to leave them room
 LABEL_WIDTH = 34   # letters of an axis' label before its line is broken
-BAND_REACH = 4     # bands may widen the axis by this factor; few seeds can give bands of many decades
 
 
 def axis_range(points: pd.DataFrame, floors: list[float]) -> tuple[float, float]:
     """Of a logarithmic axis: all means and near floors, and of the bands what leaves the means room."""
     means = points["mean"][points["mean"] > 0]
     lowest, highest = means.min(), means.max()
-    bottom = np.nanmin([lowest, max(points.low.min(), lowest / BAND_REACH)])
-    top = np.nanmax([highest, min(points.high.max(), highest * BAND_REACH)])
-    bottom = min([bottom, *(floor for floor in floors if floor >= lowest / FLOOR_REACH)])
+    bottom = np.nanmin([lowest, max(points.low.min(), lowest / style.BAND_REACH)])
+    top = np.nanmax([highest, min(points.high.max(), highest * style.BAND_REACH)])
+    bottom = min([bottom, *(floor for floor in floors if floor >= lowest / style.FLOOR_REACH)])
     margin = (top / bottom) ** 0.06 * 1.02
     return bottom / margin, top * margin
 

@@ -133,7 +133,7 @@ def _draw_run(run: Path) -> Drawing:
     manifest = run / "manifest.json"
     config = read_manifest(manifest).get("config", {}) if manifest.is_file() else {}
     figure = inspection_figure(cells, hemisphere, pixel, f"{resolved.parent.name}/{resolved.name}", table_note(config))
-    return Drawing(f"inspect_{resolved.name}", figure, run / "inspect" / "inspect", RC)
+    return Drawing(f"inspect_{resolved.name}", figure, run / "inspect" / "inspect", rc=RC)
 
 
 def draw(request: Request, medium: style.Medium) -> Iterator[Drawing]:

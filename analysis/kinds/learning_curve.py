@@ -64,7 +64,7 @@ def table_errors(results: Results, truth: float) -> pd.DataFrame:
     return rows.assign(error=errors, at_reference_floor=False)
 
 
-def learning_figure(results: Results, truth: float, look: style.Look = style.SCREEN) -> Figure:
+def learning_figure(results: Results, truth: float, look: style.Look = style.NARROW) -> Figure:
     """Raises MissingError where nothing can be drawn on logarithmic axes."""
     points = over_seeds(table_errors(results, truth), "error")
     if not (points["mean"] > 0).any():
@@ -77,8 +77,7 @@ def learning_figure(results: Results, truth: float, look: style.Look = style.SCR
     sentences.append("One seed per line: there is no confidence band." if (points.seeds == 1).all() else
                      "Lines: mean over seeds. Bands: 95 % confidence interval of that mean (Student's t).")
     with matplotlib.rc_context(look.rc):
-        figure = Figure(figsize=(0.68 * look.width, 5) if look.words else (look.width, 1.3 * look.row_height),
-                        layout="constrained")
+        figure = Figure(figsize=(look.width, 1.35 * look.row_height), layout="constrained")
         if look.words:
             figure.suptitle(title(results, points), fontsize=13)
             figure.supxlabel(textwrap.fill(" ".join(sentences), 105), fontsize=look.note_size, color="0.25")

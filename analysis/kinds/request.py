@@ -33,6 +33,7 @@ class Drawing:
     name: str  # of its file, without the ending
     figure: Figure
     home: Path | None = None  # where it belongs, without the ending, if that is not beside the others
+    dpi: float | None = None  # of images whose pixels shall be whole pixels of the file
     rc: dict[str, Any] = field(default_factory=dict)  # besides those of its look, while it is written
 
 

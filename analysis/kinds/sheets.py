@@ -86,4 +86,5 @@ def scene_sheet(results: Results, scene: str, frames: list[int] | None, exposure
 
 def draw(request: Request, medium: style.Medium) -> Iterator[Drawing]:
     for scene in dict.fromkeys(request.results.finished.scene):
-        yield Drawing(f"sheet_{scene}", scene_sheet(request.results, scene, request.frames, request.exposure))
+        figure = scene_sheet(request.results, scene, request.frames, request.exposure)
+        yield Drawing(f"sheet_{scene}", figure, dpi=figure.dpi)

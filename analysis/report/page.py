@@ -83,7 +83,8 @@ def _data(sweep: Sweep, found: list[Gallery]) -> dict[str, Any]:
     return {"scenes": sweep.scenes, "labels": labels, "figures": axes,
             "configurations": [_configuration_data(row, [*axes["x"], *axes["y"]]) for row in sweep.configurations],
             "metrics": {name: metrics[name] for name in points}, "curves": points, "floors": curves.floors(sweep),
-            "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma()}
+            "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma(),
+            "reach": {"band": style.BAND_REACH, "floor": style.FLOOR_REACH}}
 
 
 def _lead(sweep: Sweep) -> str:
@@ -120,11 +121,12 @@ def render(sweep: Sweep) -> str:
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     images = pictures.galleries(sweep)
     inspections, learned_note = learned.inspections(sweep)
+    means_file = schema.file_of(sweep.folder, schema.schema_of(sweep.folder, sweep.manifest), "configurations.csv").name
     found = findings.findings(sweep)  # after all has been read, as what could not be is among them
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
     tables = learned.saved_tables(sweep)
     return environment.get_template("page.html").render(
-        sweep=sweep, tolerances=tolerances, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
+        sweep=sweep, means_file=means_file, tolerances=tolerances, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
         sections=_sections(bool(sweep.configurations), bool(images), bool(inspections or tables)), galleries=images,
         image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), error_table=table.error_table(sweep), inspections=inspections,
         learned_note=learned_note, saved_tables=tables, published_ratios=_published_ratios(sweep),

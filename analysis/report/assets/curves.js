@@ -1,7 +1,7 @@
 // Error against samples and against seconds, a pair of plots per scene.
 const [SPP, SECONDS, MEAN, LOW, HIGH, SEEDS, FLOOR] = [1, 2, 3, 4, 5, 6, 7];  // of a point: analysis/report/curves.py
 const metric = document.querySelector("#metric");
-const bandReach = 4, floorReach = 100;  // as in analysis/convergence_figure.py
+const bandReach = data.reach.band, floorReach = data.reach.floor;
 
 function span(values) { return [Math.min(...values), Math.max(...values)]; }
 

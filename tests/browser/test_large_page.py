@@ -6,7 +6,7 @@ from pathlib import Path
 
 import browser  # first: it puts the others on the path
 import support
-from report_results import fail_run, write_report_results
+from page_results import fail_run, write_page_results
 
 from analysis import report_page
 from analysis.report import pictures
@@ -21,12 +21,12 @@ def write_sweep(folder: Path) -> Path:
         support.METHODS[f"method {i}"] = 1 + i / 5
         support.SECONDS[f"method {i}"] = 0.5 + i / 20
     methods = tuple(f"method {i}" for i in range(METHODS))
-    write_report_results(folder, side=SIDE, methods=methods, seeds=tuple(range(1, SEEDS + 1)))
+    write_page_results(folder, side=SIDE, methods=methods, seeds=tuple(range(1, SEEDS + 1)))
     fail_run(folder, "scene=occluded,method=method-7,seed=3", "failed", "the device was lost", 2)
     return folder
 
 
-class LargeReportTest(browser.BrowserTest):
+class LargePageTest(browser.BrowserTest):
     @classmethod
     def make_page(cls) -> Path:
         results = write_sweep(cls.folder / "study")
@@ -48,7 +48,7 @@ class LargeReportTest(browser.BrowserTest):
         # Base64 takes 4 bytes for 3; 4 MB are room for all that is not images.
         self.assertLess(megabytes, pictures.BOUND_MB * 4 / 3 + 4)
         self.assertEqual(self.complaints(), [])
-        self.assertEqual(len(self.find_all("#cells-table tbody tr")), 2 * METHODS)
+        self.assertEqual(len(self.find_all("#configurations-table tbody tr")), 2 * METHODS)
         self.assertEqual(len(self.find_all("#runs-table tbody tr")), 2 * METHODS * SEEDS)
         self.assertIn("full size. They take 22.6 MB", self.find(".readout").text)
         self.assertIn("1 of 500 runs failed", self.find(".findings li").text)
