@@ -1,45 +1,35 @@
 #include "experiments/commands/compare.h"
 
 #include "engine/core/check.h"
+#include "experiments/files/text_table.h"
 #include "experiments/images/exr_picture.h"
 #include "experiments/measure/flip.h"
 #include "experiments/measure/heat_map.h"
 #include "experiments/measure/metrics.h"
-#include "experiments/files/text_table.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <memory>
 
 namespace qtrace::experiments {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.9g}", value); }
 
-// In the order of metric_definitions().
-std::vector<std::string> values(const ErrorMetrics& errors, std::size_t pixels) {
-  const std::string unknown = "unknown: the reference has no variance channels";
-  const auto known = [&](const std::optional<double>& value) { return value ? number(*value) : unknown; };
-  return {number(errors.mse),
-          number(errors.relmse),
-          number(errors.relmse_trimmed),
-          number(errors.mape),
-          number(errors.smape),
-          number(errors.psnr_db),
-          number(*errors.flip),
-          number(errors.bias),
-          errors.reference ? number(errors.reference->mse) : unknown,
-          errors.reference ? number(errors.reference->relmse) : unknown,
-          known(errors.mse_corrected()),
-          known(errors.relmse_corrected()),
-          errors.reference ? (errors.at_reference_floor() ? "yes" : "no") : unknown,
-          fmt::format("{} of {} pixels", errors.non_finite, pixels)};
+std::string text_of(const Metric& metric, const ErrorMetrics& errors, std::size_t pixels) {
+  const CsvValue value = metric.value(errors);
+  if (metric.name == "non_finite_pixels") return fmt::format("{} of {} pixels", errors.non_finite, pixels);
+  if (const bool* flag = std::get_if<bool>(&value); flag != nullptr && errors.reference)
+    return *flag ? "yes" : "no";
+  const auto known = metric.number(errors);
+  return known ? number(*known) : "unknown: the reference has no variance channels";
 }
 
 std::string metric_table(const ErrorMetrics& errors, std::size_t pixels) {
-  const std::vector<MetricDefinition> metrics = metric_definitions();
-  const std::vector<std::string> figures = values(errors, pixels);
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < metrics.size(); ++i)
-    rows.push_back({metrics[i].name, figures[i], metrics[i].formula});
+  for (const Metric& metric : error_metrics()) {
+    rows.push_back({metric.name, text_of(metric, errors, pixels), metric.formula});
+  }
   return plain_table({"metric", "value", "formula"}, rows);
 }
 
@@ -81,11 +71,11 @@ std::string source_line(const std::string& what, const std::filesystem::path& fi
 
 std::string draw_heat_map(const CompareOptions& options, const RadianceImage& image,
                           const RadianceImage& reference) {
-  const std::vector<double> errors = error_map(options.heat_metric, image, reference);
-  const HeatScale scale = heat_scale(options.heat_metric, errors, options.heat_top);
-  write_heat_map(options.heat, options.heat_metric, image.width, image.height, errors, scale);
-  std::string line =
-      fmt::format("\nheat map {}: {} per pixel", options.heat.string(), enum_name(options.heat_metric));
+  const Metric& metric = error_metric(options.heat_metric);
+  const std::vector<double> errors = metric.map(image, reference);
+  const HeatScale scale = heat_scale(metric.heat, errors, options.heat_top);
+  write_heat_map(options.heat, metric, image.width, image.height, errors, scale);
+  std::string line = fmt::format("\nheat map {}: {} per pixel", options.heat.string(), metric.name);
   if (options.heat.extension() == ".png") {
     line += fmt::format(", magma, {} from {:.4g} (black) to {:.4g} (pale yellow); {} of {} pixels are above",
                         scale.bottom > 0 ? "logarithmic" : "linear", scale.bottom, scale.top, scale.above,
@@ -114,6 +104,35 @@ std::string compare_files(const CompareOptions& options) {
                      metric_table(errors, a.pixels());
   if (!options.heat.empty()) text += draw_heat_map(options, a, r);
   return text;
+}
+
+void add_compare_command(CLI::App& app, Action& action) {
+  const auto kept = std::make_shared<CompareOptions>();
+  CompareOptions& options = *kept;
+  CLI::App* compare = app.add_subcommand("compare", "Error metrics of an image against a reference");
+  compare->add_option("IMAGE", options.image, "OpenEXR file: R, G, B, a layer of them, X, Y, Z or Y")
+      ->required();
+  compare->add_option("REFERENCE", options.reference, "the same, perhaps with variances")->required();
+  compare->add_option("--layer", options.layer, "the layer or part to compare, where there are several");
+  compare->add_option("--reference-layer", options.reference_layer,
+                      "of the reference (default: --layer where it has that, else its main image)");
+  compare->add_option("--heat", options.heat,
+                      "writes the error of every pixel: .png in false colours, .exr the values");
+  std::vector<std::string> names;
+  for (const Metric& metric : error_metrics()) {
+    if (metric.map != nullptr) names.push_back(metric.name);
+  }
+  compare->add_option("--heat-metric", options.heat_metric, "default: relmse")->check(CLI::IsMember(names));
+  compare
+      ->add_option("--heat-max", options.heat_top,
+                   "error with the brightest colour (default: flip 1, else the 99th percentile)")
+      ->check(CLI::PositiveNumber);
+  compare->callback([&action, kept] {
+    action = [kept] {
+      fmt::print("{}", compare_files(*kept));
+      return 0;
+    };
+  });
 }
 
 }  // namespace qtrace::experiments

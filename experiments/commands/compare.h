@@ -1,7 +1,7 @@
 // `qtrace compare`: the errors of one image file against another.
 #pragma once
 
-#include "experiments/measure/pixel_errors.h"
+#include "experiments/commands/subcommand.h"
 
 #include <filesystem>
 #include <string>
@@ -11,11 +11,11 @@ namespace qtrace::experiments {
 struct CompareOptions {
   std::filesystem::path image;
   std::filesystem::path reference;
-  std::string layer{};            // empty: chosen as exr_layers.h says
-  std::string reference_layer{};  // empty: `layer` where the reference has it, else chosen
-  std::filesystem::path heat{};   // empty: no heat map
-  PixelError heat_metric = PixelError::relmse;
-  double heat_top = 0;  // 0: as heat_map.h says
+  std::string layer{};                 // empty: chosen as exr_layers.h says
+  std::string reference_layer{};       // empty: `layer` where the reference has it, else chosen
+  std::filesystem::path heat{};        // empty: no heat map
+  std::string heat_metric = "relmse";  // of those that have errors per pixel
+  double heat_top = 0;                 // 0: as heat_map.h says
 };
 
 // What was compared, and a table of all metrics; the noise floor only where the reference has variance
@@ -23,5 +23,7 @@ struct CompareOptions {
 // many. Throws Error that names the file: unreadable, no image in it, several, sizes that differ; then
 // nothing is written.
 std::string compare_files(const CompareOptions& options);
+
+void add_compare_command(CLI::App& app, Action& action);
 
 }  // namespace qtrace::experiments

@@ -1,12 +1,13 @@
 #include "experiments/commands/dry_run.h"
 
 #include "engine/core/check.h"
-#include "experiments/study/calibration.h"
-#include "experiments/study/disk_space.h"
-#include "experiments/study/plan.h"
+#include "experiments/files/text_table.h"
 #include "experiments/reference/reference_store.h"
 #include "experiments/run/run_store.h"
-#include "experiments/files/text_table.h"
+#include "experiments/study/calibration.h"
+#include "experiments/study/disk_space.h"
+#include "experiments/study/experiment_inputs.h"
+#include "experiments/study/plan.h"
 
 #include <algorithm>
 #include <map>
@@ -22,15 +23,12 @@ struct State {
   int frames = 0;  // that need not be rendered again
 };
 
-State state_of(const Experiment& experiment, const Run& run, const gpu::Context& context, SceneStore& scenes,
-               const fs::path& folder) {
-  const RunStore store(folder / run.id,
-                       run_identity(run.config, scenes.load(experiment.scene_file(run)).hash,
-                                    scenes.load(experiment.reference_file(run)).hash, context.device()));
+State state_of(const Run& run, const RunInputs& inputs, const fs::path& folder) {
+  const RunStore store(folder / run.id, inputs.identity);
   const auto ignore = [](const Error&) {};
   if (const auto record = store.read_record(run, ignore)) {
-    return record->status == "finished" ? State{"finished", run.config.frames}
-                                        : State{"failed, to be tried again", 0};
+    return record->status == RunStatus::finished ? State{"finished", run.config.frames}
+                                                 : State{"failed, to be tried again", 0};
   }
   const auto checkpoint = store.read_checkpoint(ignore);
   if (!checkpoint) return {};
@@ -44,10 +42,11 @@ std::string dry_run(const Experiment& experiment, const gpu::Context& context, S
                     const RunChoices& choices, Progress& progress) {
   const fs::path folder = choices.root / experiment.name;
   const std::vector<Turn> turns = chosen_turns(experiment, choices);
+  const ExperimentInputs inputs(experiment, scenes, context.device());
   std::vector<Turn> left;
   std::map<std::size_t, State> states;
   for (const Turn& turn : turns) {
-    const State state = state_of(experiment, experiment.runs[turn.place], context, scenes, folder);
+    const State state = state_of(experiment.runs[turn.place], inputs.of(turn), folder);
     states[turn.place] = state;
     if (state.frames < experiment.runs[turn.place].config.frames) left.push_back(turn);
   }
@@ -57,7 +56,7 @@ std::string dry_run(const Experiment& experiment, const gpu::Context& context, S
   for (const Turn& turn : turns) {
     const Run& run = experiment.runs[turn.place];
     const RenderSettings& render = run.config.render;
-    const Scene& scene = scenes.load(experiment.scene_file(run)).scene;
+    const Scene& scene = inputs.of(turn).scene->scene;
     const State& state = states[turn.place];
     const double own = calibration.seconds(run, run.config.frames - state.frames);
     seconds += own;
@@ -71,16 +70,14 @@ std::string dry_run(const Experiment& experiment, const gpu::Context& context, S
   text += plain_table(
       {"run", "scene", "size", "frames", "bounces", "sampler", "nee", "seed", "state", "left"}, rows);
   std::vector<ReferenceSpec> missing;
-  for (const ReferenceSpec& spec : needed_references(experiment, left, scenes)) {
+  for (const ReferenceSpec& spec : inputs.references(left)) {
     const ReferenceOutlook outlook = ReferenceStore::outlook(spec, choices.root, experiment.folder());
     text += fmt::format("reference {}: {}, {}", spec.hash, spec.wish.text(), outlook.text());
     if (!outlook.enough) {
       missing.push_back(spec);
-      const auto run = std::ranges::find_if(left, [&](const Turn& turn) {
-        const Run& r = experiment.runs[turn.place];
-        return reference_spec(r.config, scenes.load(experiment.reference_file(r)).hash).hash == spec.hash;
-      });
-      const Scene& scene = scenes.load(experiment.reference_file(experiment.runs[run->place])).scene;
+      const auto turn =
+          std::ranges::find_if(left, [&](const Turn& t) { return inputs.of(t).reference_hash == spec.hash; });
+      const Scene& scene = inputs.of(*turn).shown->scene;
       const Speed speed = measure_speed(context, scene, spec.settings);
       const double own = speed.setup_s + speed.frame_s * std::max(0, spec.wish.frames - outlook.frames);
       seconds += own;

@@ -2,19 +2,92 @@
 
 #include "engine/core/check.h"
 #include "engine/tracer/inspection.h"
+#include "experiments/config/config.h"
 #include "experiments/files/atomic_file.h"
-#include "experiments/images/exr.h"
-#include "experiments/commands/inspected_run.h"
 #include "experiments/files/text_table.h"
+#include "experiments/images/exr.h"
+#include "experiments/run/saved_table.h"
+#include "experiments/runtime/scene_store.h"
 #include "experiments/runtime/version.h"
 
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
 #include <numeric>
 
 namespace qtrace::experiments {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kHemisphereSize = 192;
+
+// A run's folder, read back: what it was told, and what its table had learned.
+struct InspectedRun {
+  std::filesystem::path folder;
+  RunConfig config;
+  std::string config_hash;
+  LoadedScene scene;
+  SavedTable table;
+};
+
+// The member at a dotted path. Throws Error that names the manifest where there is none or no text.
+std::string text_at(const Json& manifest, const fs::path& file, const std::string& group,
+                    const std::string& key) {
+  const Json& place = group.empty() ? manifest : manifest.value(group, Json::object());
+  check(place.is_object() && place.contains(key) && place.at(key).is_string(),
+        "{}: has no text '{}{}{}', so it is not the manifest of a run", file.string(), group,
+        group.empty() ? "" : ".", key);
+  return place.at(key).get<std::string>();
+}
+
+RunConfig config_of(const Json& manifest, const fs::path& file) {
+  RunConfig config;
+  try {
+    read_knobs(manifest.value("config", Json()), config);
+    check_run_config(config);
+  } catch (const Error& error) {
+    fail("{}: {}", file.string(), error.what());
+  }
+  return config;
+}
+
+LoadedScene load_scene(const fs::path& file, const std::string& hash) {
+  check(fs::is_regular_file(file),
+        "{}: the scene of this run is not there; inspect it from the folder where it was run", file.string());
+  SceneStore store;
+  LoadedScene scene = store.load(file);
+  check(scene.hash == hash,
+        "{}: this scene has changed since the run (its hash was {} and is {}), so that the table's cells lie "
+        "elsewhere; "
+        "run the experiment again",
+        file.string(), hash, scene.hash);
+  return scene;
+}
+
+// Throws Error: not the folder of a run, no direction bins, no table of this frame (none: the last one), or a
+// scene that is gone or has changed since.
+InspectedRun read_inspected_run(const fs::path& folder, std::optional<int> frame) {
+  const fs::path file = folder / "manifest.json";
+  check(fs::is_regular_file(file),
+        "{}: is not the folder of a run, which has a manifest.json: results/<experiment>/<run>",
+        folder.string());
+  const Json manifest = read_json_file(file);
+  check(manifest.is_object() && manifest.contains("run"),
+        "{}: is the folder of an experiment; name one of the runs in it", folder.string());
+  InspectedRun run;
+  run.folder = folder;
+  run.config = config_of(manifest, file);
+  run.config_hash = text_at(manifest, file, "", "config_hash");
+  check(run.config.render.sampler == Sampler::rl,
+        "{}: this run has learned no directions, because its sampler is {}; only runs with sampler rl can be "
+        "inspected",
+        folder.string(), enum_name(run.config.render.sampler));
+  run.table = read_saved_table(folder, frame);
+  run.scene = load_scene(text_at(manifest, file, "scene", "file"), text_at(manifest, file, "scene", "hash"));
+  return run;
+}
 
 // Rows of the saved table, and what they are worth as pictures.
 class LearnedTable {
@@ -183,6 +256,31 @@ std::string inspect_run(const InspectOptions& options, Progress& progress) {
   return figures_text(run, pixel, cell, inspection.cells()[static_cast<std::size_t>(cell)], table,
                       compare_bins(hemisphere, cell, table)) +
          fmt::format("\nFiles: {} {}\n", (folder / "cells.exr").string(), name.string());
+}
+
+void add_inspect_command(CLI::App& app, Action& action) {
+  const auto kept = std::make_shared<InspectOptions>();
+  InspectOptions& options = *kept;
+  constexpr int kMostSamples = 1 << 20;
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "Pictures of a run's cells, and of what one of them has learned");
+  inspect->add_option("RUN_FOLDER", options.folder, "results/<experiment>/<run>, made with save_table")
+      ->required();
+  inspect->add_option("--pixel", options.pixel, "X,Y: whose cell is shown (default: the middle of the image)")
+      ->delimiter(',')
+      ->expected(2);
+  inspect->add_option("--samples", options.samples, "paths per pixel of the true hemisphere")
+      ->capture_default_str()
+      ->check(CLI::Range(1, kMostSamples));
+  inspect->add_option("--frame", options.frame, "after which frame the table was saved (default: the last)");
+  inspect->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  inspect->callback([&action, kept] {
+    action = [kept] {
+      Progress progress(Progress::detect(false));
+      fmt::print("{}", inspect_run(*kept, progress));
+      return 0;
+    };
+  });
 }
 
 }  // namespace qtrace::experiments

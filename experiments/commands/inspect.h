@@ -1,6 +1,7 @@
 // `qtrace inspect`: pictures of what a run's table has learned, beside what is true.
 #pragma once
 
+#include "experiments/commands/subcommand.h"
 #include "experiments/runtime/progress.h"
 
 #include <optional>
@@ -24,5 +25,7 @@ struct InspectOptions {
 //                   the projection is described in engine/tracer/inspection.h
 // Throws Error that names what is wrong.
 std::string inspect_run(const InspectOptions& options, Progress& progress);
+
+void add_inspect_command(CLI::App& app, Action& action);
 
 }  // namespace qtrace::experiments

@@ -3,14 +3,15 @@
 #include "engine/core/check.h"
 #include "experiments/files/atomic_file.h"
 #include "experiments/images/exr.h"
-#include "experiments/runtime/manifest.h"
 #include "experiments/reference/reference_store.h"
-#include "experiments/study/results_folder.h"
 #include "experiments/run/run.h"
+#include "experiments/runtime/manifest.h"
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstring>
+#include <memory>
 #include <set>
 
 namespace qtrace::experiments {
@@ -56,7 +57,9 @@ fs::path scene_file(const Json& scene, const fs::path& manifest) {
 Run run_of(const Json& manifest, const fs::path& file) {
   Run run;
   run.id = part(manifest, "run", file).get<std::string>();
-  run.configuration = part(manifest, "configuration", file).get<std::string>();
+  // Manifests of schema 1 call it a cell.
+  run.configuration =
+      part(manifest, manifest.contains("cell") ? "cell" : "configuration", file).get<std::string>();
   try {
     read_knobs(part(manifest, "config", file), run.config);
   } catch (const Error& error) {
@@ -146,9 +149,11 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
   const Place place(options.out);
   const Stopper stopper;
   ReferenceStore references(context, place.path(), stopper, progress);
+  const ReferenceSpec spec = reference_spec(run.config, shown.hash);
+  const RunInputs inputs = run_inputs(run, scene, shown, spec, context.device());
   const auto reference = [&] {
     const fs::path results = fs::absolute(file).parent_path().parent_path().parent_path();
-    return references.get(reference_spec(run.config, shown.hash), shown, results);
+    return references.get(spec, shown, results);
   };
   FileQueue files;
   const fs::path folder = place.path() / experiment.name / run.id;
@@ -156,8 +161,7 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
   const RunEnd end = execute_run({.context = context,
                                   .experiment = experiment,
                                   .run = run,
-                                  .scene = scene,
-                                  .shown = shown,
+                                  .inputs = inputs,
                                   .get_reference = reference,
                                   .folder = folder,
                                   .files = files,
@@ -166,7 +170,7 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
                                  progress);
   files.flush();
   if (end.stopped) throw *end.stopped;
-  check(end.record.status == "finished", "{}: done again, the run fails: {}", file.string(),
+  check(end.record.status == RunStatus::finished, "{}: done again, the run fails: {}", file.string(),
         end.record.reason);
   RerunResult result;
   result.text =
@@ -174,6 +178,22 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
       compare_folders(file.parent_path().empty() ? "." : file.parent_path(), folder, result.agrees) +
       changes_text(manifest, {{"program", program_json()}, {"device", device_json(context.device())}});
   return result;
+}
+
+void add_rerun_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RerunOptions>();
+  CLI::App* again = app.add_subcommand("rerun", "Does a run again from its manifest; do the bits agree?");
+  again->add_option("MANIFEST", options->manifest, "results/<experiment>/<run>/manifest.json")->required();
+  again->add_option("--out", options->out, "keeps the new files in this folder");
+  again->add_option("--device", options->device, "index or part of a name, see `qtrace devices`");
+  again->callback([&action, options] {
+    action = [options] {
+      Progress progress(Progress::detect(false));
+      const RerunResult result = rerun(*options, progress);
+      fmt::print("{}", result.text);
+      return result.agrees ? 0 : 1;
+    };
+  });
 }
 
 }  // namespace qtrace::experiments

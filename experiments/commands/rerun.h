@@ -1,6 +1,7 @@
 // `qtrace rerun`: does one run again from its manifest, and says whether the bits agree.
 #pragma once
 
+#include "experiments/commands/subcommand.h"
 #include "experiments/runtime/progress.h"
 
 #include <filesystem>
@@ -23,5 +24,7 @@ struct RerunResult {
 // old results where it is there, which changes no image. Throws Error that names the manifest and what it
 // lacks.
 RerunResult rerun(const RerunOptions& options, Progress& progress);
+
+void add_rerun_command(CLI::App& app, Action& action);
 
 }  // namespace qtrace::experiments

@@ -1,7 +1,7 @@
-#include "experiments/commands/slurm.h"
+#include "experiments/commands/slurm_scripts.h"
 
 #include "engine/core/check.h"
-#include "experiments/commands/command.h"
+#include "experiments/runtime/subprocess.h"
 
 #include <optional>
 #include <regex>

@@ -2,11 +2,14 @@
 
 #include "engine/core/check.h"
 #include "experiments/files/folder_lock.h"
+#include "experiments/records/run_status.h"
 #include "experiments/runtime/progress.h"
 #include "experiments/study/results_folder.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace qtrace::experiments {
@@ -45,6 +48,7 @@ std::string report_line(const Json& report) {
 
 std::string experiment_status(const fs::path& folder) {
   const Json manifest = read_json_file(folder / "manifest.json");
+  const std::string finished(enum_name(RunStatus::finished));
   std::map<std::string, int> counts;
   std::string failures;
   std::size_t failed = 0;
@@ -53,22 +57,23 @@ std::string experiment_status(const fs::path& folder) {
     // The run's own manifest is newer, and all there is of shards.
     const Json own = read_if_there(folder / id / "manifest.json");
     const std::string status =
-        own.is_object() ? own.value("status", "waiting") : entry.value("status", "waiting");
+        (own.is_object() ? own : entry).value("status", std::string(enum_name(RunStatus::waiting)));
     ++counts[status];
-    if (status != "failed" || ++failed > kMostFailures) continue;
+    if (status != enum_name(RunStatus::failed) || ++failed > kMostFailures) continue;
     failures += fmt::format("  failed: {}: {}\n", id, own.is_object() ? own.value("reason", "") : "");
   }
   if (failed > kMostFailures) failures += fmt::format("  and {} more\n", failed - kMostFailures);
   const std::string holder = FolderLock::holder(lock_file(folder));
-  const bool is_whole = counts["finished"] == static_cast<int>(manifest.at("runs").size());
+  const bool is_whole = counts[finished] == static_cast<int>(manifest.at("runs").size());
   const std::string state = !holder.empty() ? "at work: " + holder
                             : is_whole      ? "finished"
                                             : "nobody is at work; the same `qtrace run` goes on";
   std::string text = fmt::format("{}: {}\n  {} of {} runs finished", folder.filename().string(), state,
-                                 counts["finished"], manifest.at("runs").size());
+                                 counts[finished], manifest.at("runs").size());
   for (const auto& [status, count] : counts) {
-    if (status == "finished" || count == 0) continue;
-    text += fmt::format(", {} {}", count, status == "running" && holder.empty() ? "cut off" : status);
+    if (status == finished || count == 0) continue;
+    text += fmt::format(", {} {}", count,
+                        status == enum_name(RunStatus::running) && holder.empty() ? "cut off" : status);
   }
   text += '\n';
   if (!holder.empty()) {
@@ -97,6 +102,18 @@ std::string status_text(const fs::path& folder) {
   std::string text;
   for (const fs::path& experiment : found) text += experiment_status(experiment);
   return text;
+}
+
+void add_status_command(CLI::App& app, Action& action) {
+  CLI::App* status = app.add_subcommand("status", "How far the experiments in a folder are");
+  const auto folder = std::make_shared<std::string>("results");
+  status->add_option("RESULTS", *folder, "results, or results/<experiment>")->capture_default_str();
+  status->callback([&action, folder] {
+    action = [folder] {
+      fmt::print("{}", status_text(*folder));
+      return 0;
+    };
+  });
 }
 
 }  // namespace qtrace::experiments

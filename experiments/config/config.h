@@ -3,8 +3,8 @@
 
 #include "engine/core/filter_settings.h"
 #include "engine/core/settings.h"
-#include "experiments/measure/expectation.h"
 #include "experiments/config/json_knobs.h"
+#include "experiments/measure/expectation.h"
 
 #include <array>
 #include <cstdint>

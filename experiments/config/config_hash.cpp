@@ -5,7 +5,7 @@
 namespace qtrace::experiments {
 
 std::string config_hash(const RunConfig& config, const std::string& scene_hash) {
-  Json json = write_knobs(config);
+  Json json = write_knobs(config, Written::identity);
   json.erase("name");
   json.erase("save_table");
   json.erase("expect");

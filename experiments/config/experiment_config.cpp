@@ -3,7 +3,6 @@
 #include "engine/core/check.h"
 #include "engine/core/text.h"
 #include "experiments/files/atomic_file.h"
-#include "experiments/config/preset.h"
 
 #include <algorithm>
 #include <set>
@@ -87,6 +86,40 @@ void drop_schema(Json& config) {
   config.erase("$schema");
 }
 
+Json read_preset(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;
+  check(std::filesystem::is_regular_file(file),
+        "there is no such file; it is looked for in the config's folder");
+  check(std::filesystem::file_size(file) <= kMostBytes, "the preset has {} bytes; at most {} would be right",
+        std::filesystem::file_size(file), kMostBytes);
+  const Json raw = read_json_file(file);
+  check(raw.is_object(), "must hold one JSON object");
+  Json preset = Json::object();
+  merge(preset, raw);
+  for (const char* own : {"name", "scene"}) {
+    check(!preset.contains(own), "sets '{}', which belongs to a config", own);
+  }
+  RunConfig run;
+  read_knobs(preset, run);  // refuses what no run has, other presets and sweeps among it
+  return preset;
+}
+
+// `config` over the settings of the file that its key 'preset' names, relative to `file`, the config's own
+// place; as it is where it names none. Throws Error that names the preset's file.
+Json with_preset(const Json& config, const std::filesystem::path& file) {
+  if (!config.is_object() || !config.contains("preset") || !config["preset"].is_string()) return config;
+  const std::string name = config["preset"].get<std::string>();
+  if (name.empty()) return config;
+  Json result;
+  try {
+    result = read_preset(file.parent_path() / name);
+  } catch (const Error& error) {
+    fail("preset {}: {}", show(config["preset"]), error.what());
+  }
+  merge(result, config);
+  return result;
+}
+
 Run make_run(const SweepPoint& point, const RunConfig& base) {
   Run run{point.id, point.configuration, point.labels, base};
   try {
@@ -116,7 +149,8 @@ void check_published(Experiment& experiment) {
     if (name.empty() || known.contains(name) || ++unknown > kMostWarnings) return;
     warn(fmt::format("'{}'", name), suggestion(name, {known.begin(), known.end()}));
   };
-  for (const auto& [configuration, ms] : experiment.published.ms_per_frame.by_configuration) warn_unless_known(configuration, configurations);
+  for (const auto& [configuration, ms] : experiment.published.ms_per_frame.by_configuration)
+    warn_unless_known(configuration, configurations);
   for (const std::string& label : experiment.published.ratio) warn_unless_known(label, labels);
   if (unknown > kMostWarnings) warn(fmt::format("{} more", unknown - kMostWarnings), "");
 }
@@ -134,7 +168,8 @@ void check_baseline(const Experiment& experiment) {
   check(axes < 2, "key 'baseline' is '{}', a label of {} axes; name a whole configuration instead",
         experiment.baseline, axes);
   for (const Run& run : experiment.runs) {
-    if (names.empty() || names.back() != run.configuration) names.push_back(run.configuration);  // seeds follow each other
+    if (names.empty() || names.back() != run.configuration)
+      names.push_back(run.configuration);  // seeds follow each other
   }
   check(std::ranges::find(names, experiment.baseline) != names.end(),
         "key 'baseline' is '{}' but must be a label or a configuration of the sweep{}", experiment.baseline,
@@ -175,6 +210,39 @@ Experiment build(const std::string& text, const std::filesystem::path& file,
 }
 
 }  // namespace
+
+const double* PublishedTimes::find(const std::string& configuration) const {
+  for (const auto& [name, ms] : by_configuration) {
+    if (name == configuration) return &ms;
+  }
+  return nullptr;
+}
+
+std::string KnobType<PublishedTimes>::describe(const KnobInfo&) {
+  return "an object of configurations and positive numbers";
+}
+
+void KnobType<PublishedTimes>::read(const Json& json, const KnobInfo& info, const std::string& path,
+                                    PublishedTimes& times) {
+  if (!json.is_object()) reject_value(path, json, describe(info));
+  times.by_configuration.clear();
+  for (const auto& [configuration, value] : json.items()) {
+    double ms = 0;
+    KnobType<double>::read(value, info, path + '.' + configuration, ms);
+    check(ms > 0, "key '{}.{}' is {} but must be a positive number", path, configuration, ms);
+    times.by_configuration.emplace_back(configuration, ms);
+  }
+}
+
+Json KnobType<PublishedTimes>::schema(const KnobInfo&) {
+  return {{"type", "object"}, {"additionalProperties", {{"type", "number"}, {"exclusiveMinimum", 0}}}};
+}
+
+Json KnobType<PublishedTimes>::write(const PublishedTimes& times) {
+  Json json = Json::object();
+  for (const auto& [configuration, ms] : times.by_configuration) json[configuration] = ms;
+  return json;
+}
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return parse_experiment(read_file(file), file, sets);

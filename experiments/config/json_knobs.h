@@ -32,6 +32,9 @@ concept KnobGroup = std::is_class_v<T> && requires(detail::AnyVisitor& visit, T&
 
 template <KnobGroup T>
 void read_knobs(const Json& json, T& group, const std::string& path = "");
+enum class Written;
+template <KnobGroup T>
+Json write_knobs(T group, Written what);
 template <KnobGroup T>
 Json write_knobs(T group);
 template <KnobGroup T>
@@ -90,18 +93,31 @@ class KnobReader {
   std::vector<std::string> seen_;
 };
 
+// What is written: every knob, or what identifies their values for hashes that must stand still while knobs
+// are added (KnobInfo::implied).
+enum class Written { all, identity };
+
 class KnobWriter {
  public:
+  explicit KnobWriter(Written what) : what_(what) {}
+
   template <class T>
   void operator()(const KnobInfo& info, T& value) {
     const std::string name(info.name);
     if constexpr (KnobGroup<T>) {
-      object[name] = write_knobs(value);
+      Json group = write_knobs(value, what_);
+      // A group whose knobs all came later and are as before leaves no trace, either.
+      if (what_ == Written::all || !group.empty()) object[name] = std::move(group);
     } else {
-      object[name] = KnobType<T>::write(value);
+      Json written = KnobType<T>::write(value);
+      if (what_ == Written::all || info.implied.empty() || written != Json::parse(info.implied))
+        object[name] = std::move(written);
     }
   }
   Json object = Json::object();
+
+ private:
+  Written what_;
 };
 
 class KnobLister {
@@ -137,12 +153,17 @@ void read_knobs(const Json& json, T& group, const std::string& path) {
   reader.reject_unknown([&] { return settable_keys(list_knobs(T{}, path)); });
 }
 
-// All knobs of a group as a JSON object, in the order of their declaration.
+// The knobs of a group as a JSON object, in the order of their declaration.
 template <KnobGroup T>
-Json write_knobs(T group) {
-  KnobWriter writer;
+Json write_knobs(T group, Written what) {
+  KnobWriter writer(what);
   visit_knobs(writer, group);
   return writer.object;
+}
+
+template <KnobGroup T>
+Json write_knobs(T group) {
+  return write_knobs(std::move(group), Written::all);
 }
 
 // One row per knob, nested ones with dotted keys; the values are those of `group`.

@@ -5,8 +5,8 @@
 
 #include "engine/core/check.h"
 #include "engine/core/knob.h"
-#include "experiments/files/json.h"
 #include "experiments/config/nearest.h"
+#include "experiments/files/json.h"
 
 #include <fmt/ranges.h>
 

@@ -38,7 +38,7 @@ struct KnobType<Sweep> {
 // One point of a sweep before it is read: which values, and what they change of the base config.
 struct SweepPoint {
   std::string id;                   // "scene=occluded,method=rl,seed=3"; "run" without axes
-  std::string configuration;                 // labels of all axes but the seed, joined by " / "
+  std::string configuration;        // labels of all axes but the seed, joined by " / "
   std::vector<std::string> labels;  // one per axis
   Json overrides;
 };

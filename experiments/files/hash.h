@@ -23,6 +23,15 @@ class Hasher {
     static_assert(std::is_trivially_copyable_v<T>);
     XXH3_128bits_update(state_.get(), &value, sizeof(T));
   }
+
+  // Of a member that came after hashes of its struct had been kept: `implied` is what programs without it
+  // did. With that value it leaves no trace, so that what was kept is found again.
+  template <class T>
+  void add_later(std::string_view name, const T& value, const T& implied) {
+    if (value == implied) return;
+    for (const char c : name) add(c);
+    add(value);
+  }
   std::string digest() const;
 
  private:

@@ -135,4 +135,10 @@ bool paths_overlap(std::string_view a, std::string_view b) {
 
 std::string canonical_text(const Json& value) { return nlohmann::json(value).dump(); }
 
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void write_json(const std::filesystem::path& file, const Json& json) { write_file(file, json_text(json)); }
+
 }  // namespace qtrace::experiments

@@ -38,4 +38,9 @@ bool paths_overlap(std::string_view a, std::string_view b);
 // Keys sorted, no white space, shortest numbers that read back exactly: equal text for equal content.
 std::string canonical_text(const Json& value);
 
+std::string json_text(const Json& json);  // indented, with a final line break
+
+// The same as a file; whole or not at all.
+void write_json(const std::filesystem::path& file, const Json& json);
+
 }  // namespace qtrace::experiments

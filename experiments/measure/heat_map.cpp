@@ -38,7 +38,7 @@ void write_png(const std::filesystem::path& file, int width, int height,
 
 }  // namespace
 
-HeatScale heat_scale(PixelError metric, const std::vector<double>& errors, double top) {
+HeatScale heat_scale(HeatScaling scaling, const std::vector<double>& errors, double top) {
   HeatScale scale;
   std::vector<double> finite;
   std::copy_if(errors.begin(), errors.end(), std::back_inserter(finite),
@@ -46,13 +46,12 @@ HeatScale heat_scale(PixelError metric, const std::vector<double>& errors, doubl
   scale.not_finite = errors.size() - finite.size();
   if (top > 0) {
     scale.top = top;
-  } else if (metric != PixelError::flip && !finite.empty()) {
+  } else if (scaling != HeatScaling::to_one && !finite.empty()) {
     scale.top = *quantile(finite, kHeatQuantile);
     if (scale.top == 0) scale.top = *std::max_element(finite.begin(), finite.end());
     if (scale.top == 0) scale.top = 1;
   }
-  const bool squared = metric == PixelError::mse || metric == PixelError::relmse;
-  if (squared) scale.bottom = scale.top * std::pow(10, -kHeatDecades);
+  if (scaling == HeatScaling::logarithmic) scale.bottom = scale.top * std::pow(10, -kHeatDecades);
   scale.above = static_cast<std::size_t>(
       std::count_if(finite.begin(), finite.end(), [&](double error) { return error > scale.top; }));
   return scale;
@@ -77,12 +76,12 @@ void check_heat_file(const std::filesystem::path& file) {
         "{}: a heat map is written as .png (false colours) or .exr (the values)", file.string());
 }
 
-void write_heat_map(const std::filesystem::path& file, PixelError metric, int width, int height,
+void write_heat_map(const std::filesystem::path& file, const Metric& metric, int width, int height,
                     const std::vector<double>& errors, const HeatScale& scale) {
   check_heat_file(file);
   if (file.extension() == ".png") return write_png(file, width, height, heat_colours(errors, scale));
   ExrImage exr{width, height, {}, {}};
-  exr.metadata = {{"metric", std::string(enum_name(metric))},
+  exr.metadata = {{"metric", metric.name},
                   {"heatBottom", fmt::format("{}", scale.bottom)},
                   {"heatTop", fmt::format("{}", scale.top)}};
   exr.channels["Y"].assign(errors.begin(), errors.end());

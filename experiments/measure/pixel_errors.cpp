@@ -1,39 +1,13 @@
 #include "experiments/measure/pixel_errors.h"
 
 #include "engine/core/check.h"
-#include "experiments/measure/flip.h"
-#include "experiments/measure/metrics.h"
 
 #include <glm/common.hpp>
-#include <glm/vec3.hpp>
 
 #include <cmath>
 #include <limits>
 
 namespace qtrace::experiments {
-namespace {
-
-using OfPixel = double (*)(const glm::dvec3& a, const glm::dvec3& r);
-
-// Null for FLIP, whose pixels depend on their neighbours.
-OfPixel of_pixel(PixelError metric) {
-  switch (metric) {
-    case PixelError::mse:
-      return squared_error;
-    case PixelError::relmse:
-      return relative_squared_error;
-    case PixelError::mape:
-      return absolute_percentage_error;
-    case PixelError::smape:
-      return symmetric_percentage_error;
-    case PixelError::flip:
-      break;
-  }
-  return nullptr;
-}
-
-}  // namespace
-
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double channel_mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3.0; }
@@ -58,9 +32,7 @@ void check_same_size(const RadianceImage& image, const RadianceImage& reference)
         reference.width, reference.height);
 }
 
-std::vector<double> error_map(PixelError metric, const RadianceImage& image, const RadianceImage& reference) {
-  const OfPixel error = of_pixel(metric);
-  if (error == nullptr) return flip_map(image, reference);
+std::vector<double> map_errors(PixelError error, const RadianceImage& image, const RadianceImage& reference) {
   check_same_size(image, reference);
   std::vector<double> errors;
   for (std::size_t i = 0; i < image.pixels(); ++i) {

@@ -1,7 +1,5 @@
 #include "experiments/records/configurations.h"
 
-#include "engine/core/check.h"
-
 #include <algorithm>
 
 namespace qtrace::experiments {
@@ -20,17 +18,15 @@ std::optional<FrameTimes> pooled_times(const Members& runs, std::vector<double> 
 
 std::map<std::string, Estimate> estimate_figures(const Members& runs) {
   std::map<std::string, Estimate> figures;
-  const std::vector<Column<RunRecord>> columns = run_columns({});
-  for (const ConfigurationFigure& figure : configuration_figures()) {
-    const auto column = std::ranges::find(columns, figure.column, &Column<RunRecord>::name);
-    check(column != columns.end(), "summary.csv has no column '{}'", figure.column);
+  for (const Figure& figure : run_figures()) {
+    if (!figure.is_averaged) continue;
     std::vector<double> values;
     for (const RunRecord* run : runs) {
-      const CsvValue value = column->get(*run);
+      const CsvValue value = figure.column.get(*run);
       if (const double* number = std::get_if<double>(&value)) values.push_back(*number);
     }
     const auto result = figure.is_signed ? signed_estimate(values) : estimate(values);
-    if (result) figures.emplace(figure.column, *result);
+    if (result) figures.emplace(figure.column.name, *result);
   }
   return figures;
 }
@@ -40,7 +36,7 @@ Members chosen(const Members& members) {
   Members finished, furthest;
   for (const RunRecord* run : members) {
     if (run->final_errors() == nullptr) continue;
-    if (run->status == "finished") {
+    if (run->status == RunStatus::finished) {
       finished.push_back(run);
     } else if (furthest.empty() || run->frames.size() >= furthest.front()->frames.size()) {
       if (!furthest.empty() && run->frames.size() > furthest.front()->frames.size()) furthest.clear();
@@ -60,32 +56,18 @@ Configuration make_configuration(const Members& members) {
   configuration.clamp_radiance = first.run.config.render.clamp_radiance;
   configuration.runs = members.size();
   const Members counted = chosen(members);
-  configuration.frames = counted.empty() ? configuration.planned_frames : static_cast<int>(counted.front()->frames.size());
-  std::vector<double> relmse, elapsed, inefficiency, filtered, fireflies, bias;
+  configuration.frames =
+      counted.empty() ? configuration.planned_frames : static_cast<int>(counted.front()->frames.size());
   for (const RunRecord* run : members) {
     configuration.non_finite += run->totals().non_finite;
     configuration.clamped_samples += run->totals().clamped_samples;
     if (run->verdict) ++configuration.verdicts[run->verdict->word];
   }
-  for (const RunRecord* run : counted) {
-    const ErrorMetrics* errors = run->final_errors();
-    relmse.push_back(errors->relmse);
-    elapsed.push_back(run->elapsed_s());
-    inefficiency.push_back(*run->relmse_x_seconds());
-    if (const FilteredRecord* record = run->final_filtered()) filtered.push_back(record->errors.relmse);
-    if (const auto rate = run->fireflies_per_million()) fireflies.push_back(*rate);
-    bias.push_back(run->last_snapshot()->clamp_bias);
-    if (errors->at_reference_floor()) ++configuration.at_reference_floor;
-  }
+  configuration.at_reference_floor = static_cast<std::size_t>(std::ranges::count_if(
+      counted, [](const RunRecord* run) { return run->final_errors()->at_reference_floor(); }));
   configuration.finished = counted.size();
   configuration.host_ms = pooled_times(counted, &RunRecord::host_ms);
   configuration.gpu_ms = pooled_times(counted, &RunRecord::gpu_ms);
-  configuration.relmse = estimate(relmse);
-  configuration.elapsed_s = estimate(elapsed);
-  configuration.relmse_x_s = estimate(inefficiency);
-  configuration.relmse_filtered = estimate(filtered);
-  configuration.fireflies_per_million = estimate(fireflies);
-  configuration.clamp_bias = signed_estimate(bias);
   configuration.members = counted;
   configuration.figures = estimate_figures(counted);
   return configuration;
@@ -93,11 +75,17 @@ Configuration make_configuration(const Members& members) {
 
 }  // namespace
 
+std::optional<Estimate> Configuration::figure(const std::string& column) const {
+  const auto found = figures.find(column);
+  return found == figures.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<Configuration> collect_configurations(const std::vector<RunRecord>& records) {
   std::vector<std::pair<std::string, Members>> groups;
   for (const RunRecord& record : records) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&record](const auto& entry) { return entry.first == record.run.configuration; });
+    auto group = std::find_if(groups.begin(), groups.end(), [&record](const auto& entry) {
+      return entry.first == record.run.configuration;
+    });
     if (group == groups.end()) group = groups.insert(groups.end(), {record.run.configuration, {}});
     group->second.push_back(&record);
   }

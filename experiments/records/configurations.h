@@ -2,8 +2,9 @@
 #pragma once
 
 #include "experiments/measure/error_parts.h"
-#include "experiments/records/records.h"
 #include "experiments/measure/statistics.h"
+#include "experiments/records/figures.h"
+#include "experiments/records/records.h"
 
 #include <map>
 #include <optional>
@@ -32,30 +33,17 @@ struct Configuration {
   std::size_t finished = 0;  // those that count
   std::optional<FrameTimes> host_ms;
   std::optional<FrameTimes> gpu_ms;
-  std::optional<Estimate> relmse;
-  std::optional<Estimate> elapsed_s;
-  std::optional<Estimate> relmse_x_s;
-  std::optional<Estimate> relmse_filtered;  // empty where nothing was filtered
-  std::optional<Estimate> fireflies_per_million;
-  std::optional<Estimate> clamp_bias;
   std::uint64_t clamped_samples = 0;
   std::uint64_t non_finite = 0;
   std::size_t at_reference_floor = 0;           // seeds
   std::map<std::string, std::size_t> verdicts;  // seeds by word; empty where nothing was expected
-  std::vector<const RunRecord*> members;    // those that count, among the records that the configuration is made of
-  std::optional<ErrorParts> parts;          // filled in from the images when all runs are done
+  std::vector<const RunRecord*>
+      members;                      // those that count, among the records that the configuration is made of
+  std::optional<ErrorParts> parts;  // filled in from the images when all runs are done
   std::map<std::string, Estimate> figures;  // by column of summary.csv; a seed without a value is not in it
-};
 
-// The columns of summary.csv that configurations.csv takes over the seeds of a configuration.
-struct ConfigurationFigure {
-  std::string column;
-  bool is_signed = false;  // symmetric interval
+  std::optional<Estimate> figure(const std::string& column) const;  // nothing where no seed has a value
 };
-const std::vector<ConfigurationFigure>& configuration_figures();
-
-// configurations.csv: seeds, then mean, _sd, _low and _high of every figure.
-std::vector<Column<Configuration>> configuration_columns(const std::vector<Axis>& axes);
 
 // In the order of their first runs.
 std::vector<Configuration> collect_configurations(const std::vector<RunRecord>& records);

@@ -10,10 +10,12 @@ constexpr std::size_t kFewestPoints = 3;  // of a slope
 
 }  // namespace
 
-Curve curve_of(const RunRecord& record, Metric metric) {
+Curve curve_of(const RunRecord& record, const Metric& metric) {
   Curve curve;
   for (const SnapshotRecord& snapshot : record.snapshots) {
-    curve.push_back({static_cast<double>(snapshot.frame), snapshot.elapsed_s, snapshot.errors.*metric,
+    const auto error = metric.number(snapshot.errors);
+    if (!error) continue;
+    curve.push_back({static_cast<double>(snapshot.frame), snapshot.elapsed_s, *error,
                      snapshot.errors.at_reference_floor()});
   }
   return curve;

@@ -8,8 +8,6 @@
 
 namespace qtrace::experiments {
 
-using Metric = double ErrorMetrics::*;
-
 struct CurvePoint {
   double spp = 0;
   double seconds = 0;
@@ -18,7 +16,8 @@ struct CurvePoint {
 };
 using Curve = std::vector<CurvePoint>;
 
-Curve curve_of(const RunRecord& record, Metric metric);
+// Snapshots at which the metric is unknown are left out.
+Curve curve_of(const RunRecord& record, const Metric& metric);
 
 // Arithmetic means of seconds and errors, point by point; a point is at the floor where one of its seeds is.
 // The curves must have the same samples. `without`: the index of a curve to leave out.

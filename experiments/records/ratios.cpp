@@ -6,9 +6,6 @@
 namespace qtrace::experiments {
 namespace {
 
-const std::vector<std::string> kFigures{"host_ms_median", "gpu_ms_median",  "mse",
-                                        "relmse",         "relmse_trimmed", "relmse_x_s"};
-
 // The variance of one side of a comparison, and the seeds behind it.
 struct Side {
   double variance = 0;
@@ -49,7 +46,7 @@ Side jackknife_variance(const std::vector<double>& values) {
   return {values.empty() ? 0 : squares * (count - 1) / count, values.size()};
 }
 
-std::vector<Curve> curves_of(const Configuration& configuration, Metric metric) {
+std::vector<Curve> curves_of(const Configuration& configuration, const Metric& metric) {
   std::vector<Curve> curves;
   for (const RunRecord* run : configuration.members) curves.push_back(curve_of(*run, metric));
   return curves;
@@ -73,19 +70,23 @@ std::optional<std::vector<double>> leave_one_out(std::size_t seeds, Without with
   return values.empty() ? std::nullopt : std::optional(values);
 }
 
-std::optional<Interval> time_ratio(const std::vector<Curve>& baseline, const std::vector<Curve>& configuration) {
+std::optional<Interval> time_ratio(const std::vector<Curve>& baseline,
+                                   const std::vector<Curve>& configuration) {
   const Curve baseline_mean = mean_curve(baseline);
   const Curve configuration_mean = mean_curve(configuration);
   const auto value = log_time_ratio(baseline_mean, configuration_mean);
   if (!value) return std::nullopt;
-  const auto above = leave_one_out(
-      baseline.size(), [&](std::size_t i) { return log_time_ratio(mean_curve(baseline, i), configuration_mean); });
-  const auto below = leave_one_out(
-      configuration.size(), [&](std::size_t i) { return log_time_ratio(baseline_mean, mean_curve(configuration, i)); });
+  const auto above = leave_one_out(baseline.size(), [&](std::size_t i) {
+    return log_time_ratio(mean_curve(baseline, i), configuration_mean);
+  });
+  const auto below = leave_one_out(configuration.size(), [&](std::size_t i) {
+    return log_time_ratio(baseline_mean, mean_curve(configuration, i));
+  });
   return above && below ? jackknife(*value, *above, *below) : Interval{std::exp(*value), {}, {}};
 }
 
-TimeToError compare_times(const Configuration& baseline, const Configuration& configuration, Metric metric) {
+TimeToError compare_times(const Configuration& baseline, const Configuration& configuration,
+                          const Metric& metric) {
   const std::vector<Curve> baseline_curves = curves_of(baseline, metric);
   const std::vector<Curve> configuration_curves = curves_of(configuration, metric);
   TimeToError result;
@@ -97,7 +98,8 @@ TimeToError compare_times(const Configuration& baseline, const Configuration& co
 }
 
 // The baseline that differs from the configuration in one label alone, or null.
-const Configuration* baseline_of(const Experiment& experiment, const Configuration& configuration, const std::vector<Configuration>& configurations) {
+const Configuration* baseline_of(const Experiment& experiment, const Configuration& configuration,
+                                 const std::vector<Configuration>& configurations) {
   for (std::size_t axis = 0; axis < experiment.axes.size(); ++axis) {
     if (experiment.axes[axis].is_seed) continue;
     for (const Configuration& other : configurations) {
@@ -133,26 +135,26 @@ std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double ta
   return others ? jackknife(std::log(*time), *others, {}) : Interval{*time, {}, {}};
 }
 
-std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Configuration>& configurations) {
+std::vector<Ratios> baseline_ratios(const Experiment& experiment,
+                                    const std::vector<Configuration>& configurations) {
   std::vector<Ratios> rows;
   if (experiment.baseline.empty()) return rows;
   for (const Configuration& configuration : configurations) {
     const Configuration* baseline = baseline_of(experiment, configuration, configurations);
     if (baseline == nullptr) continue;
-    Ratios row{configuration.name, baseline->name, configuration.scene, {}, {}, {}};
-    for (const std::string& figure : kFigures) {
-      const auto above = baseline->figures.find(figure);
-      const auto below = configuration.figures.find(figure);
-      if (above == baseline->figures.end() || below == configuration.figures.end()) continue;
-      if (const auto ratio = ratio_of_means(above->second, below->second)) row.figures[figure] = *ratio;
+    Ratios row{configuration.name, baseline->name, configuration.scene, {}, {}};
+    for (const Figure& figure : run_figures()) {
+      const auto above = baseline->figure(figure.column.name);
+      const auto below = configuration.figure(figure.column.name);
+      if (!figure.is_compared || !above || !below) continue;
+      if (const auto ratio = ratio_of_means(*above, *below)) row.figures[figure.column.name] = *ratio;
     }
-    row.mse = compare_times(*baseline, configuration, &ErrorMetrics::mse);
-    row.relmse = compare_times(*baseline, configuration, &ErrorMetrics::relmse);
+    for (const Metric& metric : error_metrics()) {
+      if (metric.is_followed) row.times[metric.name] = compare_times(*baseline, configuration, metric);
+    }
     rows.push_back(std::move(row));
   }
   return rows;
 }
-
-const std::vector<std::string>& ratio_figures() { return kFigures; }
 
 }  // namespace qtrace::experiments

@@ -1,9 +1,9 @@
 // Ratios of a baseline to the other configurations: above 1 where the baseline needs more.
 #pragma once
 
+#include "experiments/config/experiment_config.h"
 #include "experiments/records/configurations.h"
 #include "experiments/records/curve.h"
-#include "experiments/config/experiment_config.h"
 
 #include <map>
 #include <optional>
@@ -35,8 +35,9 @@ Interval jackknife(double log_value, const std::vector<double>& log_above,
 std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double target);
 
 struct TimeToError {
-  std::optional<double> target;   // the mean error of the baseline at its end
-  std::optional<Interval> time;   // seconds of the configuration; empty if never reached, or before its first snapshot
+  std::optional<double> target;  // the mean error of the baseline at its end
+  std::optional<Interval>
+      time;  // seconds of the configuration; empty if never reached, or before its first snapshot
   std::optional<Interval> ratio;  // the baseline's mean seconds / time; the target varies with the baseline
 };
 
@@ -45,18 +46,12 @@ struct Ratios {
   std::string configuration;
   std::string baseline;
   std::string scene;
-  std::map<std::string, Interval> figures;  // by column of configurations.csv
-  TimeToError mse;
-  TimeToError relmse;
+  std::map<std::string, Interval> figures;   // by column of configurations.csv
+  std::map<std::string, TimeToError> times;  // by metric: those that are followed
 };
 
 // Nothing where the experiment names no baseline. In the order of the configurations.
-std::vector<Ratios> baseline_ratios(const Experiment& experiment, const std::vector<Configuration>& configurations);
-
-const std::vector<std::string>& ratio_figures();  // columns of configurations.csv
-std::vector<Column<Ratios>> ratio_columns();      // of ratios.csv
-
-// A Markdown table of the ratios of one scene, or nothing.
-std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& scene);
+std::vector<Ratios> baseline_ratios(const Experiment& experiment,
+                                    const std::vector<Configuration>& configurations);
 
 }  // namespace qtrace::experiments

@@ -5,8 +5,8 @@
 namespace qtrace::experiments {
 namespace {
 
-// Members in a fixed order; version 1 of the layout.
-constexpr int kLayout = 1;
+// Members in a fixed order; raised where that changes.
+constexpr int kLayout = 2;
 
 template <class Visitor>
 void visit_fields(Visitor& visit, FrameCounters& s) {
@@ -28,8 +28,15 @@ void visit_fields(Visitor& visit, ReferenceNoise& noise) {
 
 template <class Visitor>
 void visit_fields(Visitor& visit, ErrorMetrics& e) {
-  visit(e.mse), visit(e.relmse), visit(e.relmse_trimmed), visit(e.mape), visit(e.smape), visit(e.psnr_db);
-  visit(e.flip), visit(e.bias), visit(e.reference), visit(e.non_finite);
+  for (const Metric& metric : error_metrics()) {
+    std::visit(
+        [&](const auto& member) {
+          // What is computed from other members is not kept.
+          if constexpr (std::is_member_object_pointer_v<std::decay_t<decltype(member)>>) visit(e.*member);
+        },
+        metric.member);
+  }
+  visit(e.reference);
 }
 
 template <class Visitor>
@@ -65,6 +72,14 @@ void visit_fields(Visitor& visit, RunRecord& record) {
 template <class T>
 constexpr bool is_value = std::is_arithmetic_v<T> || std::is_same_v<T, std::string>;
 
+template <class Enum>
+Enum enum_of(const std::string& name) {
+  const auto& names = EnumNames<Enum>::values;
+  const auto found = std::ranges::find(names, name);
+  check(found != names.end(), "the record of a run has the unknown word '{}'", name);
+  return static_cast<Enum>(found - names.begin());
+}
+
 // Puts members into an array one after the other.
 class Packer {
  public:
@@ -78,6 +93,8 @@ class Packer {
   static Json packed(T& value) {
     if constexpr (is_value<T>) {
       return value;
+    } else if constexpr (std::is_enum_v<T>) {
+      return enum_name(value);
     } else {
       Packer inner;
       visit_fields(inner, value);
@@ -111,6 +128,8 @@ class Unpacker {
   static void unpack_value(const Json& json, T& value) {
     if constexpr (is_value<T>) {
       json.get_to(value);
+    } else if constexpr (std::is_enum_v<T>) {
+      value = enum_of<T>(json.get<std::string>());
     } else {
       Unpacker inner(json);
       visit_fields(inner, value);

@@ -1,10 +1,10 @@
-// What is measured, and the one list of columns for each CSV file.
+// What is measured of a run.
 #pragma once
 
-#include "engine/tracer/tracer.h"
-#include "experiments/files/csv.h"
+#include "engine/tracer/counters.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/measure/metrics.h"
+#include "experiments/records/run_status.h"
 
 #include <optional>
 #include <string>
@@ -47,14 +47,11 @@ struct FireflyRecord {
   std::optional<double> brightest;        // radiance
 };
 
-// The status of a run that was stopped and can be gone on with.
-inline constexpr const char* kPartial = "partial";
-
 // One run; what it did not reach stays empty.
 struct RunRecord {
   Run run;
-  std::string scene;      // file name without folder and extension
-  std::string status;     // "running", "finished", "failed" or kPartial
+  std::string scene;  // file name without folder and extension
+  RunStatus status = RunStatus::waiting;
   std::string reason;     // of a failure
   std::size_t place = 0;  // among the runs of the config
   int order = 0;          // of execution, from 1
@@ -81,10 +78,5 @@ struct RunRecord {
   std::optional<double> relmse_x_seconds() const;       // inefficiency: final relmse * elapsed_s
   std::optional<double> fireflies_per_million() const;  // samples
 };
-
-std::vector<Column<FrameRecord>> frame_columns();
-std::vector<Column<SnapshotRecord>> snapshot_columns();
-std::vector<Column<SnapshotRecord>> filtered_columns();  // of convergence_filtered.csv
-std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes);
 
 }  // namespace qtrace::experiments

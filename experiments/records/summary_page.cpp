@@ -1,9 +1,9 @@
 #include "experiments/records/summary_page.h"
 
-#include "experiments/records/configuration_table.h"
 #include "experiments/records/frame_times.h"
-#include "experiments/runtime/manifest.h"
 #include "experiments/records/ratios.h"
+#include "experiments/records/summary_tables.h"
+#include "experiments/runtime/manifest.h"
 
 #include <algorithm>
 
@@ -11,8 +11,9 @@ namespace qtrace::experiments {
 namespace {
 
 // The configuration that differs from `configuration` in one label alone: `from` there, `to` here.
-const Configuration* counterpart(const Configuration& configuration, const std::vector<const Configuration*>& configurations, const std::string& from,
-                        const std::string& to) {
+const Configuration* counterpart(const Configuration& configuration,
+                                 const std::vector<const Configuration*>& configurations,
+                                 const std::string& from, const std::string& to) {
   std::vector<std::string> wanted = configuration.labels;
   const auto place = std::find(wanted.begin(), wanted.end(), from);
   if (place == wanted.end()) return nullptr;
@@ -32,13 +33,16 @@ std::string ratio_line(const Experiment& experiment, const Configuration& above,
   if (above_ms != nullptr && below_ms != nullptr) {
     line += fmt::format(" (published: {:.2f} ×)", *above_ms / *below_ms);
   }
-  if (above.relmse_x_s && below.relmse_x_s) {
-    line += fmt::format("; {:.3g} × the relMSE × s", above.relmse_x_s->mean / below.relmse_x_s->mean);
+  const auto above_error = above.figure("relmse_x_s");
+  const auto below_error = below.figure("relmse_x_s");
+  if (above_error && below_error) {
+    line += fmt::format("; {:.3g} × the relMSE × s", above_error->mean / below_error->mean);
   }
   return line + '\n';
 }
 
-std::string ratio_lines(const Experiment& experiment, const std::vector<const Configuration*>& configurations) {
+std::string ratio_lines(const Experiment& experiment,
+                        const std::vector<const Configuration*>& configurations) {
   std::string lines;
   const auto& [above_label, below_label] = experiment.published.ratio;
   if (above_label.empty() || below_label.empty()) return lines;
@@ -55,7 +59,8 @@ std::string clamping_lines(const std::vector<const Configuration*>& configuratio
     if (configuration->clamp_radiance == 0) continue;
     lines += fmt::format(
         "- {}: clamped (biased): clamp_radiance {:g} scaled down {} samples and changed the mean by {}\n",
-        configuration->name, configuration->clamp_radiance, configuration->clamped_samples, estimate_text(configuration->clamp_bias));
+        configuration->name, configuration->clamp_radiance, configuration->clamped_samples,
+        estimate_text(configuration->figure("clamp_bias")));
   }
   return lines.empty() ? lines : '\n' + lines;
 }
@@ -88,13 +93,14 @@ constexpr double kSlopeTolerance = 0.1;
 std::string slope_lines(const std::vector<Configuration>& configurations) {
   std::string lines;
   for (const Configuration& configuration : configurations) {
-    for (const char* figure : {"slope_mse", "slope_relmse"}) {
-      const auto found = configuration.figures.find(figure);
-      if (found == configuration.figures.end() || !found->second.low) continue;
-      const bool is_steep = *found->second.high < -1 - kSlopeTolerance;
-      const bool is_flat = *found->second.low > -1 + kSlopeTolerance;
+    for (const Metric& metric : error_metrics()) {
+      const auto slope = configuration.figure("slope_" + metric.name);
+      if (!slope || !slope->low) continue;
+      const bool is_steep = *slope->high < -1 - kSlopeTolerance;
+      const bool is_flat = *slope->low > -1 + kSlopeTolerance;
       if (!is_steep && !is_flat) continue;
-      lines += fmt::format("- {}: {} against spp {}: {}\n", configuration.name, figure, estimate_text(found->second),
+      lines += fmt::format("- {}: slope_{} against spp {}: {}\n", configuration.name, metric.name,
+                           estimate_text(slope),
                            is_steep ? "steeper than -1: still learning, or rare bright samples came early"
                                     : "flatter than -1: biased, heavy-tailed, or near the reference's noise");
     }
@@ -110,17 +116,18 @@ std::string time_lines(const std::vector<RunRecord>& records) {
 std::string failure_lines(const std::vector<RunRecord>& records) {
   std::string lines;
   for (const RunRecord& record : records) {
-    if (record.status == "failed") lines += fmt::format("- {}: {}\n", record.run.id, record.reason);
+    if (record.status == RunStatus::failed) lines += fmt::format("- {}: {}\n", record.run.id, record.reason);
   }
   return lines.empty() ? lines : "\nFailed runs:\n" + lines;
 }
 
 std::string unfinished_lines(const Experiment& experiment, const std::vector<RunRecord>& records) {
-  const auto partial = std::ranges::count(records, std::string(kPartial), &RunRecord::status);
+  const auto partial = std::ranges::count(records, RunStatus::partial, &RunRecord::status);
   const std::size_t missing = experiment.runs.size() - records.size();
   if (partial == 0 && missing == 0) return "";
   return fmt::format(
-      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their configuration is "
+      "\nNot finished: {} runs stopped on the way (what they have is shown where no seed of their "
+      "configuration is "
       "finished), "
       "{} not begun, of {}.\n",
       partial, missing, experiment.runs.size());
@@ -154,7 +161,8 @@ std::string notes(const Experiment& experiment) {
   if (!experiment.baseline.empty()) {
     text +=
         "\nRatios to the baseline: means over seeds, with 95 % intervals as if the seeds of the two were "
-        "independent. Time to the baseline's relMSE: until the configuration's mean error is what the baseline has at "
+        "independent. Time to the baseline's relMSE: until the configuration's mean error is what the "
+        "baseline has at "
         "its "
         "end, between snapshots by straight lines in the logarithms; '-' where it was never reached, or "
         "before "
@@ -172,16 +180,17 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
   const std::vector<Configuration> configurations = collect_configurations(records);
   std::vector<std::pair<std::string, std::vector<const Configuration*>>> scenes;
   for (const Configuration& configuration : configurations) {
-    auto scene = std::find_if(scenes.begin(), scenes.end(),
-                              [&configuration](const auto& entry) { return entry.first == configuration.scene; });
+    auto scene = std::find_if(scenes.begin(), scenes.end(), [&configuration](const auto& entry) {
+      return entry.first == configuration.scene;
+    });
     if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {configuration.scene, {}});
     scene->second.push_back(&configuration);
   }
   const std::vector<Ratios> ratios = baseline_ratios(experiment, configurations);
   std::string text = fmt::format("# {}\n\nDevice: {}\n", experiment.name, device);
   for (const auto& [scene, rows] : scenes) {
-    text += fmt::format("\n## {}\n\n", scene) + configuration_table(experiment, rows) + ratio_lines(experiment, rows) +
-            ratio_table(ratios, scene) + clamping_lines(rows);
+    text += fmt::format("\n## {}\n\n", scene) + configuration_table(experiment, rows) +
+            ratio_lines(experiment, rows) + ratio_table(ratios, scene) + clamping_lines(rows);
   }
   return text + slope_lines(configurations) + time_lines(records) + failure_lines(records) +
          unfinished_lines(experiment, records) + verdict_lines(records) + reference_lines(references) +

@@ -1,8 +1,8 @@
 #include "experiments/reference/reference.h"
 
 #include "engine/core/check.h"
-#include "experiments/images/exr.h"
 #include "experiments/files/hash.h"
+#include "experiments/images/exr.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_h
   spec.settings.nee = config.reference.nee;
   spec.settings.lights = config.reference.lights;
   spec.wish = {config.reference.frames, config.reference.relative_error, config.reference.max_frames};
-  spec.definition = write_knobs(spec.settings);
+  spec.definition = write_knobs(spec.settings, Written::identity);
   if (!has_table(spec.settings)) spec.definition.erase("rl");  // plays no part
   spec.definition["scene"] = scene_hash;
   spec.definition["reference_version"] = kReferenceVersion;

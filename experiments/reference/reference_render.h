@@ -3,10 +3,10 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/context.h"
-#include "experiments/runtime/progress.h"
-#include "experiments/reference/reference.h"
-#include "experiments/runtime/scene_store.h"
 #include "experiments/files/state_file.h"
+#include "experiments/reference/reference.h"
+#include "experiments/runtime/progress.h"
+#include "experiments/runtime/scene_store.h"
 #include "experiments/runtime/stopper.h"
 
 #include <filesystem>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/gpu/context.h"
-#include "experiments/runtime/progress.h"
 #include "experiments/reference/reference.h"
+#include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
 #include "experiments/runtime/stopper.h"
 

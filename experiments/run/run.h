@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/gpu/context.h"
-#include "experiments/runtime/progress.h"
 #include "experiments/records/records.h"
 #include "experiments/reference/reference.h"
 #include "experiments/run/run_files.h"
-#include "experiments/runtime/scene_store.h"
+#include "experiments/run/run_inputs.h"
+#include "experiments/runtime/progress.h"
 #include "experiments/runtime/stopper.h"
 #include "experiments/runtime/watchdog.h"
 
@@ -26,8 +26,7 @@ struct RunJob {
   const gpu::Context& context;
   const Experiment& experiment;
   const Run& run;
-  const LoadedScene& scene;
-  const LoadedScene& shown;  // by its reference
+  const RunInputs& inputs;
   std::function<std::shared_ptr<const Reference>()> get_reference;
   std::filesystem::path folder;      // made here
   FileQueue& files;                  // what writes into it

@@ -1,8 +1,9 @@
 #include "experiments/run/run_files.h"
 
 #include "experiments/files/atomic_file.h"
-#include "experiments/runtime/manifest.h"
+#include "experiments/records/columns.h"
 #include "experiments/run/saved_table.h"
+#include "experiments/runtime/manifest.h"
 
 namespace qtrace::experiments {
 

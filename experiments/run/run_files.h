@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/tracer/qtable.h"
-#include "experiments/images/exr.h"
 #include "experiments/files/file_queue.h"
 #include "experiments/files/json.h"
+#include "experiments/images/exr.h"
 #include "experiments/records/records.h"
 
 #include <filesystem>

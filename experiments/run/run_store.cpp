@@ -1,12 +1,8 @@
 #include "experiments/run/run_store.h"
 
 #include "experiments/files/atomic_file.h"
-#include "experiments/config/config_hash.h"
-#include "experiments/files/hash.h"
-#include "experiments/records/record_json.h"
-#include "experiments/reference/reference.h"
 #include "experiments/files/state_file.h"
-#include "experiments/runtime/version.h"
+#include "experiments/records/record_json.h"
 
 namespace qtrace::experiments {
 namespace {
@@ -34,25 +30,13 @@ bool has_ended(const fs::path& manifest) {
   if (!fs::exists(manifest)) return false;
   try {
     const std::string status = read_json_file(manifest).value("status", "");
-    return status == "finished" || status == "failed";
+    return status == enum_name(RunStatus::finished) || status == enum_name(RunStatus::failed);
   } catch (const std::exception&) {
     return false;  // written by hand or by something else: the run is done again
   }
 }
 
 }  // namespace
-
-std::string run_identity(const RunConfig& config, const std::string& scene_hash,
-                         const std::string& reference_scene_hash, const gpu::DeviceInfo& device) {
-  const Json json{{"config", config_hash(config, scene_hash)},
-                  {"save_table", enum_name(config.save_table)},
-                  {"expect", write_knobs(config.expect)},
-                  {"reference", reference_spec(config, reference_scene_hash).hash},
-                  {"binary", binary_hash()},
-                  {"renderer", device.renderer},
-                  {"driver", device.gl_version}};
-  return hash_text(canonical_text(json));
-}
 
 void RunStore::write_checkpoint(FileQueue& files, const RunRecord& record, TracerState state) const {
   std::size_t bytes = 0;

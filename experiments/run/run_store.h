@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/check.h"
-#include "engine/gpu/context.h"
 #include "engine/tracer/tracer_state.h"
 #include "experiments/files/file_queue.h"
 #include "experiments/records/records.h"
@@ -14,16 +13,13 @@
 
 namespace qtrace::experiments {
 
-// Of all that decides a run's bits: config, scenes, program and device.
-std::string run_identity(const RunConfig& config, const std::string& scene_hash,
-                         const std::string& reference_scene_hash, const gpu::DeviceInfo& device);
-
 struct Checkpoint {
   RunRecord record;  // as unpack() fills it
   TracerState state;
 };
 
-// The files of one run's folder that belong to an identity; what belongs to another is not seen.
+// The files of one run's folder that belong to an identity (run_inputs.h); what belongs to another is not
+// seen.
 class RunStore {
  public:
   using Complaint = std::function<void(const Error&)>;  // of files that are damaged

@@ -1,7 +1,5 @@
 #include "experiments/runtime/manifest.h"
 
-#include "experiments/files/atomic_file.h"
-#include "experiments/measure/metrics.h"
 #include "experiments/runtime/version.h"
 
 #include <fmt/chrono.h>
@@ -37,16 +35,6 @@ Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {
           {"warnings", scene.scene.warnings}};
 }
 
-Json metrics_json() {
-  Json metrics = Json::array();
-  for (const auto& definitions : {metric_definitions(), run_metric_definitions()}) {
-    for (const MetricDefinition& metric : definitions) {
-      metrics.push_back({{"name", metric.name}, {"formula", metric.formula}, {"source", metric.source}});
-    }
-  }
-  return metrics;
-}
-
 std::string timing_note() {
   return "Times hold tracing and, for RL, all learning of each frame; building structures, compiling "
          "shaders, "
@@ -60,11 +48,5 @@ std::string device_text(const gpu::DeviceInfo& device) {
   return fmt::format("{}, OpenGL {}, {}", device.renderer, device.gl_version,
                      device.software ? "software: computes on the CPU" : "hardware");
 }
-
-std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-void write_json(const std::filesystem::path& file, const Json& json) { write_file(file, json_text(json)); }
 
 }  // namespace qtrace::experiments

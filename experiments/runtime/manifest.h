@@ -13,7 +13,7 @@ namespace qtrace::experiments {
 // Of the files of results, in every manifest: raised when a column or key is removed or changes its meaning,
 // so that readers (analysis/load.py) can tell; new ones do not raise it. Results without it are from before
 // it.
-constexpr int kResultsSchema = 1;
+constexpr int kResultsSchema = 2;
 
 std::string utc_now();  // ISO 8601, seconds
 
@@ -21,15 +21,9 @@ Json program_json();  // version and commit
 Json device_json(const gpu::DeviceInfo& device);
 // `folder`: of the manifest, from which the scene's file is found again when both are moved together.
 Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder);
-Json metrics_json();        // name, formula and source of each metric
 std::string timing_note();  // one sentence: what the times hold and what they leave out
 
 // "llvmpipe ..., OpenGL ..., software: computes on the CPU".
 std::string device_text(const gpu::DeviceInfo& device);
-
-std::string json_text(const Json& json);  // indented, with a final line break
-
-// The same as a file; whole or not at all.
-void write_json(const std::filesystem::path& file, const Json& json);
 
 }  // namespace qtrace::experiments

@@ -5,6 +5,7 @@
 namespace qtrace::experiments {
 namespace {
 
+// What materials have had from the start; further members are added by Hasher::add_later().
 void add_material(Hasher& hasher, const Material& material) {
   hasher.add(material.base_color);
   hasher.add(material.metallic);

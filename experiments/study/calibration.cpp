@@ -65,13 +65,15 @@ double Calibration::seconds(const Run& run, int frames) const {
 }
 
 std::string Calibration::text() const {
-  return configurations_ == speeds_.size() ? fmt::format("measured on all {} configurations", configurations_)
-                                  : fmt::format("measured on {} of its {} configurations", speeds_.size(), configurations_);
+  return configurations_ == speeds_.size()
+             ? fmt::format("measured on all {} configurations", configurations_)
+             : fmt::format("measured on {} of its {} configurations", speeds_.size(), configurations_);
 }
 
 Speed Calibration::mean() const {
   Speed sum;
-  for (const auto& [configuration, speed] : speeds_) sum.setup_s += speed.setup_s, sum.frame_s += speed.frame_s;
+  for (const auto& [configuration, speed] : speeds_)
+    sum.setup_s += speed.setup_s, sum.frame_s += speed.frame_s;
   const auto count = static_cast<double>(std::max<std::size_t>(1, speeds_.size()));
   return {sum.setup_s / count, sum.frame_s / count};
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/gpu/context.h"
-#include "experiments/study/plan.h"
 #include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
+#include "experiments/study/plan.h"
 
 #include <map>
 #include <string>
@@ -20,7 +20,8 @@ struct Speed {
 // A tracer's first frames, the very first left out: at most 16, or half a second.
 Speed measure_speed(const gpu::Context& context, const Scene& scene, const RenderSettings& settings);
 
-// One configuration's speed for all of its runs; of many configurations, some that are evenly spread stand for the others.
+// One configuration's speed for all of its runs; of many configurations, some that are evenly spread stand
+// for the others.
 class Calibration {
  public:
   // Measures.

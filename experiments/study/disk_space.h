@@ -2,8 +2,9 @@
 #pragma once
 
 #include "experiments/config/experiment_config.h"
-#include "experiments/study/plan.h"
+#include "experiments/reference/reference.h"
 #include "experiments/runtime/scene_store.h"
+#include "experiments/study/plan.h"
 
 #include <filesystem>
 

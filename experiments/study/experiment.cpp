@@ -2,12 +2,14 @@
 
 #include "engine/core/check.h"
 #include "engine/tracer/limits.h"
-#include "experiments/study/calibration.h"
-#include "experiments/study/disk_space.h"
-#include "experiments/study/journal.h"
-#include "experiments/study/plan.h"
 #include "experiments/run/run.h"
 #include "experiments/run/run_store.h"
+#include "experiments/study/calibration.h"
+#include "experiments/study/disk_space.h"
+#include "experiments/study/experiment_inputs.h"
+#include "experiments/study/journal.h"
+#include "experiments/study/plan.h"
+#include "experiments/study/results_folder.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -21,8 +23,9 @@ namespace fs = std::filesystem;
 constexpr int kContexts = 3;  // a run is tried in this many, if each is lost
 
 std::string result_line(const std::string& label, const RunRecord& record) {
-  if (record.status == "failed") return fmt::format("{}: failed: {}", label, record.reason);
-  if (record.status == kPartial) return fmt::format("{}: {} frames so far", label, record.frames.size());
+  if (record.status == RunStatus::failed) return fmt::format("{}: failed: {}", label, record.reason);
+  if (record.status == RunStatus::partial)
+    return fmt::format("{}: {} frames so far", label, record.frames.size());
   std::string line = fmt::format("{}: finished, {} frames in {:.3g} s, relMSE {:.3g}", label,
                                  record.frames.size(), record.elapsed_s(), record.final_errors()->relmse);
   if (record.verdict) line += ", verdict " + record.verdict->word;
@@ -45,7 +48,8 @@ class Work {
         folder_(experiment, identity_json(experiment, scenes, context.device()), choices.root, choices.shard,
                 choices.fresh, progress),
         turns_(chosen_turns(experiment, choices)),
-        needed_(needed_references(experiment, turns_, scenes)),
+        inputs_(experiment, scenes, context.device()),
+        needed_(inputs_.references(turns_)),
         references_(context, choices.root, stopper, progress),
         journal_(experiment, scenes, context.device(), references_, folder_.path()),
         files_(context.device().software ? FileQueue::Content::at_once : FileQueue::Content::by_thread) {}
@@ -68,12 +72,9 @@ class Work {
 
  private:
   const Run& run_of(const Turn& turn) const { return experiment_.runs[turn.place]; }
-  const LoadedScene& scene_of(const Run& run) const { return scenes_.load(experiment_.scene_file(run)); }
-  const LoadedScene& shown_by(const Run& run) const { return scenes_.load(experiment_.reference_file(run)); }
 
-  RunStore store_of(const Run& run) const {
-    return {folder_.path() / run.id,
-            run_identity(run.config, scene_of(run).hash, shown_by(run).hash, context_.device())};
+  RunStore store_of(const Turn& turn) const {
+    return {folder_.path() / run_of(turn).id, inputs_.of(turn).identity};
   }
 
   // What earlier calls finished, of all runs: the files about the experiment show those that are not chosen,
@@ -84,12 +85,12 @@ class Work {
     };
     std::size_t found = 0;
     for (const Turn& turn : execution_order(experiment_)) {
-      const RunStore store = store_of(run_of(turn));
+      const RunStore store = store_of(turn);
       auto record = store.read_record(run_of(turn), complain);
       if (!record) continue;
       record->place = turn.place;
       record->order = turn.order;
-      if (record->status == "finished") {
+      if (record->status == RunStatus::finished) {
         ++found;
         store.remove_checkpoint(files_);  // the process may have ended before it did
       }
@@ -103,8 +104,8 @@ class Work {
 
   bool is_done(const Turn& turn) const {
     const RunRecord* record = journal_.find(turn.place);
-    if (record == nullptr || record->status == kPartial) return false;
-    return record->status == "finished" || choices_.keep_failed;
+    if (record == nullptr || record->status == RunStatus::partial) return false;
+    return record->status == RunStatus::finished || choices_.keep_failed;
   }
 
   // Time and room for what is left. Throws Error where the disk has no room for it.
@@ -143,15 +144,16 @@ class Work {
     double seconds = 0;
     for (const Turn& turn : firsts) seconds += calibration.seconds(run_of(turn), run_of(turn).config.frames);
     const int rounds = rounds_for(seconds, *budget);
-    progress_.note(fmt::format("one run of each configuration takes about {}: the configurations grow in {} rounds",
-                               duration_text(seconds), rounds));
+    progress_.note(
+        fmt::format("one run of each configuration takes about {}: the configurations grow in {} rounds",
+                    duration_text(seconds), rounds));
     return rounds;
   }
 
   void render() {
     try {
       if (choices_.references_only) {
-        for (const Turn& turn : turns_) reference_of(run_of(turn));
+        for (const Turn& turn : turns_) reference_of(turn);
         return;
       }
       for (const Step& step : steps_of(experiment_, turns_, rounds())) {
@@ -170,12 +172,12 @@ class Work {
     auto [record, stopped] = execute(step, label);
     record.place = step.turn.place;
     record.order = step.turn.order;
-    if (record.status == kPartial || met_expectation(record)) {
+    if (record.status == RunStatus::partial || met_expectation(record)) {
       progress_.note(result_line(label, record));
     } else {
       progress_.warning(result_line(label, record));
     }
-    const bool has_failed = record.status == "failed";
+    const bool has_failed = record.status == RunStatus::failed;
     journal_.add(std::move(record));
     if (stopped) throw *stopped;
     if (has_failed && choices_.fail_fast) throw Stopped{fmt::format("{} failed (--fail-fast)", run.id), 1};
@@ -189,9 +191,8 @@ class Work {
         return execute_run({.context = context_,
                             .experiment = experiment_,
                             .run = run,
-                            .scene = scene_of(run),
-                            .shown = shown_by(run),
-                            .get_reference = [&] { return reference_of(run); },
+                            .inputs = inputs_.of(step.turn),
+                            .get_reference = [&] { return reference_of(step.turn); },
                             .folder = folder_.path() / run.id,
                             .files = files_,
                             .label = label,
@@ -208,13 +209,12 @@ class Work {
     }
   }
 
-  const ReferenceSpec& needed_by(const Run& run) const {
-    const std::string hash = reference_spec(run.config, shown_by(run).hash).hash;
-    return *std::ranges::find(needed_, hash, &ReferenceSpec::hash);
+  const ReferenceSpec& needed_by(const Turn& turn) const {
+    return *std::ranges::find(needed_, inputs_.of(turn).reference_hash, &ReferenceSpec::hash);
   }
 
-  std::shared_ptr<const Reference> reference_of(const Run& run) {
-    return references_.get(needed_by(run), shown_by(run), experiment_.folder());
+  std::shared_ptr<const Reference> reference_of(const Turn& turn) {
+    return references_.get(needed_by(turn), *inputs_.of(turn).shown, experiment_.folder());
   }
 
   // Returns whether all is done. A shard leaves the files about all runs to the merge.
@@ -227,8 +227,7 @@ class Work {
       });
     }
     for (const Turn& turn : turns_) {
-      const Run& run = run_of(turn);
-      references_.note(needed_by(run), shown_by(run), experiment_.folder());
+      references_.note(needed_by(turn), *inputs_.of(turn).shown, experiment_.folder());
     }
     try {
       files_.flush();  // images are read again
@@ -250,6 +249,7 @@ class Work {
   Progress& progress_;
   ResultsFolder folder_;
   std::vector<Turn> turns_;
+  ExperimentInputs inputs_;
   std::vector<ReferenceSpec> needed_;
   ReferenceStore references_;
   Journal journal_;
@@ -258,6 +258,22 @@ class Work {
 };
 
 }  // namespace
+
+std::vector<Experiment> load_experiments(const std::vector<std::string>& files,
+                                         const std::vector<std::string>& sets, SceneStore& scenes,
+                                         Progress& progress) {
+  std::vector<Experiment> experiments;
+  for (const std::string& file : files) {
+    Experiment next = load_experiment(file, sets);
+    for (const Experiment& other : experiments) {
+      check(other.name != next.name, "{} and {} are both called '{}'; their results would share a folder",
+            other.file.string(), next.file.string(), next.name);
+    }
+    load_scenes(next, scenes, progress);
+    experiments.push_back(std::move(next));
+  }
+  return experiments;
+}
 
 void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& progress) {
   std::set<std::string> said;

@@ -3,11 +3,11 @@
 
 #include "engine/gpu/context.h"
 #include "experiments/config/experiment_config.h"
-#include "experiments/runtime/progress.h"
-#include "experiments/study/results_folder.h"
 #include "experiments/run/run.h"
+#include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
 #include "experiments/runtime/stopper.h"
+#include "experiments/study/run_choices.h"
 
 #include <filesystem>
 #include <functional>
@@ -17,17 +17,11 @@
 
 namespace qtrace::experiments {
 
-// What of an experiment is done, and how.
-struct RunChoices {
-  std::filesystem::path root = "results";
-  Shard shard;
-  std::string only;              // pattern of run ids with * and ?; empty: all
-  bool fresh = false;            // earlier results are put aside instead of gone on with
-  bool keep_failed = false;      // failed runs are not tried again
-  bool fail_fast = false;        // the first failed run ends the work
-  bool references_only = false;  // renders references alone
-  bool merge = false;            // renders nothing: writes the files about the runs that are there
-};
+// Reads these configs, each with the same `--set`s, and loads their scenes. Throws Error for what is wrong
+// with one of them, and where two would share a folder of results.
+std::vector<Experiment> load_experiments(const std::vector<std::string>& files,
+                                         const std::vector<std::string>& sets, SceneStore& scenes,
+                                         Progress& progress);
 
 // Loads every scene that a run needs and puts out what is strange about them. Throws Error that names the
 // config, the run and the file.

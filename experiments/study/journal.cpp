@@ -1,11 +1,13 @@
 #include "experiments/study/journal.h"
 
 #include "experiments/files/atomic_file.h"
-#include "experiments/runtime/manifest.h"
+#include "experiments/records/columns.h"
+#include "experiments/records/figures.h"
 #include "experiments/records/ratios.h"
-#include "experiments/study/results_folder.h"
-#include "experiments/run/run_files.h"
 #include "experiments/records/summary_page.h"
+#include "experiments/run/run_files.h"
+#include "experiments/runtime/manifest.h"
+#include "experiments/study/results_folder.h"
 
 #include <algorithm>
 
@@ -20,7 +22,7 @@ constexpr int kPauses = 50;
 }  // namespace
 
 bool met_expectation(const RunRecord& record) {
-  return record.status == "finished" && !(record.verdict && record.verdict->word == "fail");
+  return record.status == RunStatus::finished && !(record.verdict && record.verdict->word == "fail");
 }
 
 Journal::Journal(const Experiment& experiment, const SceneStore& scenes, const gpu::DeviceInfo& device,
@@ -30,18 +32,18 @@ Journal::Journal(const Experiment& experiment, const SceneStore& scenes, const g
       device_(device_text(device)),
       folder_(std::move(folder)) {
   manifest_ = {{"schema", kResultsSchema},
-               {"status", "running"},
+               {"status", enum_name(RunStatus::running)},
                {"experiment", experiment.name},
                {"config_file", experiment.file.string()}};
   manifest_.update(identity_json(experiment, scenes, device));
-  manifest_.update(Json{{"metrics", metrics_json()},
+  manifest_.update(Json{{"metrics", figures_json()},
                         {"timing", timing_note()},
                         {"warnings", experiment.warnings},
                         {"started", utc_now()}});
 }
 
 void Journal::adopt(RunRecord record) {
-  if (record.status == kPartial) record.end_at_last_snapshot();
+  if (record.status == RunStatus::partial) record.end_at_last_snapshot();
   const auto after = std::ranges::lower_bound(records_, record.place, {}, &RunRecord::place);
   if (after != records_.end() && after->place == record.place) {
     *after = std::move(record);
@@ -66,9 +68,12 @@ bool Journal::all_finished() const {
 
 void Journal::close(const std::string& stopped, Progress& progress) {
   separate(progress);
-  const bool all = records_.size() == experiment_.runs.size() &&
-                   std::ranges::all_of(records_, [](const RunRecord& r) { return r.status == "finished"; });
-  manifest_["status"] = !stopped.empty() ? kPartial : all ? "finished" : "failed";
+  const bool all =
+      records_.size() == experiment_.runs.size() &&
+      std::ranges::all_of(records_, [](const RunRecord& r) { return r.status == RunStatus::finished; });
+  manifest_["status"] = enum_name(!stopped.empty() ? RunStatus::partial
+                                  : all            ? RunStatus::finished
+                                                   : RunStatus::failed);
   if (!stopped.empty()) manifest_["stopped"] = stopped;
   manifest_["ended"] = utc_now();
   write();
@@ -78,20 +83,11 @@ std::string Journal::table() const {
   return experiment_table(experiment_, records_, references_.used(), device_);
 }
 
-std::string Journal::counts() const {
-  const auto count = [this](const char* status) {
-    return std::ranges::count(records_, std::string(status), &RunRecord::status);
-  };
-  std::string text = fmt::format("{} of {} runs finished", count("finished"), experiment_.runs.size());
-  if (const auto failed = count("failed"); failed > 0) text += fmt::format(", {} failed", failed);
-  if (const auto partial = count(kPartial); partial > 0) text += fmt::format(", {} partial", partial);
-  return text;
-}
-
 std::vector<Configuration> Journal::collect() const {
   std::vector<Configuration> configurations = collect_configurations(records_);
   for (Configuration& configuration : configurations) {
-    if (const auto parts = parts_.find(configuration.name); parts != parts_.end()) configuration.parts = parts->second;
+    if (const auto parts = parts_.find(configuration.name); parts != parts_.end())
+      configuration.parts = parts->second;
   }
   return configurations;
 }
@@ -118,7 +114,8 @@ void Journal::separate(Progress& progress) {
         parts_.insert_or_assign(configuration.name, *parts);
       }
     } catch (const std::exception& error) {
-      progress.warning(fmt::format("{}: bias and variance are not told apart: {}", configuration.name, error.what()));
+      progress.warning(
+          fmt::format("{}: bias and variance are not told apart: {}", configuration.name, error.what()));
     }
   }
 }
@@ -128,7 +125,8 @@ Json Journal::run_list() const {
   auto record = records_.begin();
   for (std::size_t i = 0; i < experiment_.runs.size(); ++i) {
     const bool is_there = record != records_.end() && record->place == i;
-    Json run{{"run", experiment_.runs[i].id}, {"status", is_there ? record->status : "waiting"}};
+    Json run{{"run", experiment_.runs[i].id},
+             {"status", enum_name(is_there ? record->status : RunStatus::waiting)}};
     if (is_there) {
       run["order"] = record->order;
       run["started"] = record->started;
@@ -146,9 +144,11 @@ void Journal::write() {
   manifest_["runs"] = run_list();
   write_file(folder_ / "summary.csv", csv_text(run_columns(experiment_.axes), records_));
   const std::vector<Configuration> configurations = collect();
-  write_file(folder_ / "configurations.csv", csv_text(configuration_columns(experiment_.axes), configurations));
+  write_file(folder_ / "configurations.csv",
+             csv_text(configuration_columns(experiment_.axes), configurations));
   if (!experiment_.baseline.empty()) {
-    write_file(folder_ / "ratios.csv", csv_text(ratio_columns(), baseline_ratios(experiment_, configurations)));
+    write_file(folder_ / "ratios.csv",
+               csv_text(ratio_columns(), baseline_ratios(experiment_, configurations)));
   }
   write_file(folder_ / "summary.md", table());
   write_json(folder_ / "manifest.json", manifest_);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/gpu/context.h"
-#include "experiments/records/configurations.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/files/json.h"
-#include "experiments/runtime/progress.h"
+#include "experiments/records/configurations.h"
 #include "experiments/reference/reference_store.h"
+#include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
 
 #include <chrono>
@@ -38,7 +38,6 @@ class Journal {
 
   bool all_finished() const;  // and met what was expected of them
   std::string table() const;
-  std::string counts() const;  // "12 of 20 runs finished, 1 failed"
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -69,20 +69,4 @@ int rounds_for(double seconds, double budget) {
   return rounds;
 }
 
-std::vector<ReferenceSpec> needed_references(const Experiment& experiment, const std::vector<Turn>& turns,
-                                             SceneStore& scenes) {
-  std::vector<ReferenceSpec> specs;
-  for (const Turn& turn : turns) {
-    const Run& run = experiment.runs[turn.place];
-    ReferenceSpec spec = reference_spec(run.config, scenes.load(experiment.reference_file(run)).hash);
-    const auto same = std::ranges::find(specs, spec.hash, &ReferenceSpec::hash);
-    if (same == specs.end()) {
-      specs.push_back(std::move(spec));
-    } else {
-      same->wish = same->wish.joined(spec.wish);
-    }
-  }
-  return specs;
-}
-
 }  // namespace qtrace::experiments

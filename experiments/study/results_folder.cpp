@@ -115,8 +115,6 @@ std::vector<std::string> identity_changes(const Json& earlier, const Json& now) 
   return changes;
 }
 
-std::string Shard::text() const { return fmt::format("{}-of-{}", index, count); }
-
 fs::path lock_file(const fs::path& folder) { return folder / ".lock"; }
 
 ResultsFolder::ResultsFolder(const Experiment& experiment, const Json& identity, const fs::path& root,

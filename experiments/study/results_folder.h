@@ -7,6 +7,7 @@
 #include "experiments/files/folder_lock.h"
 #include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
+#include "experiments/study/run_choices.h"
 
 #include <filesystem>
 #include <optional>
@@ -21,14 +22,6 @@ Json identity_json(const Experiment& experiment, const SceneStore& scenes, const
 // What differs between the identities in two manifests, one phrase each; empty where results of both may
 // stand side by side.
 std::vector<std::string> identity_changes(const Json& earlier, const Json& now);
-
-struct Shard {
-  std::size_t index = 1;  // from 1
-  std::size_t count = 1;
-
-  bool is_whole() const { return count == 1; }
-  std::string text() const;  // "2-of-4"
-};
 
 class ResultsFolder {
  public:

@@ -105,19 +105,18 @@ TEST_F(Faults, ALostContextIsRenewedAndTheRunGoesOnToTheSameBits) {
   FileQueue files;
   int losses = 0;
   gpu::Context& context = test::device();
+  const ReferenceSpec spec = reference_spec(run.config, scene.hash);
+  const RunInputs inputs = run_inputs(run, scene, scene, spec, context.device());
   const auto execute = [&](const std::string& place, bool loses) {
     ReferenceStore references(context, folder_.path(), stopper, progress);
-    const auto get = [&] {
-      return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
-    };
+    const auto get = [&] { return references.get(spec, scene, experiment.folder()); };
     const auto losing = [&](const fs::path& folder, const ExrMetadata& metadata, FileQueue& queue) {
       return std::make_unique<LosingFiles>(folder, metadata, queue, losses);
     };
     RunJob job{.context = context,
                .experiment = experiment,
                .run = run,
-               .scene = scene,
-               .shown = scene,
+               .inputs = inputs,
                .get_reference = get,
                .folder = folder_ / place,
                .files = files,
@@ -125,13 +124,13 @@ TEST_F(Faults, ALostContextIsRenewedAndTheRunGoesOnToTheSameBits) {
     if (loses) job.make_files = losing;
     return execute_run(job, progress).record;
   };
-  EXPECT_EQ(execute("whole", false).status, "finished");
+  EXPECT_EQ(execute("whole", false).status, RunStatus::finished);
   EXPECT_THROW(execute("lost", true), gpu::ContextLost);
   files.flush();
   context.renew();
   const RunRecord again = execute("lost", true);
   files.flush();
-  EXPECT_EQ(again.status, "finished") << again.reason;
+  EXPECT_EQ(again.status, RunStatus::finished) << again.reason;
   EXPECT_GT(json("lost/manifest.json").at("resumed_after_frame"), 0);
   EXPECT_EQ(folder_.read("whole/frame_000008.exr"), folder_.read("lost/frame_000008.exr"));
 }

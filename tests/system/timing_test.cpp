@@ -39,9 +39,9 @@ TEST(Timing, ASlowWriterChangesNoTime) {
   const LoadedScene& scene = scenes.load(experiment.scene_file(run));
   const Stopper stopper;
   ReferenceStore references(test::device(), folder.path(), stopper, progress);
-  const auto reference = [&] {
-    return references.get(reference_spec(run.config, scene.hash), scene, experiment.folder());
-  };
+  const ReferenceSpec spec = reference_spec(run.config, scene.hash);
+  const RunInputs inputs = run_inputs(run, scene, scene, spec, test::device().device());
+  const auto reference = [&] { return references.get(spec, scene, experiment.folder()); };
   reference();
   FileQueue files;
   const auto make_files = [](const std::filesystem::path& place, const ExrMetadata& metadata,
@@ -52,8 +52,7 @@ TEST(Timing, ASlowWriterChangesNoTime) {
   const RunRecord record = execute_run({.context = test::device(),
                                         .experiment = experiment,
                                         .run = run,
-                                        .scene = scene,
-                                        .shown = scene,
+                                        .inputs = inputs,
                                         .get_reference = reference,
                                         .folder = folder / "run",
                                         .files = files,
@@ -62,7 +61,7 @@ TEST(Timing, ASlowWriterChangesNoTime) {
                                        progress)
                                .record;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  ASSERT_EQ(record.status, "finished") << record.reason;
+  ASSERT_EQ(record.status, RunStatus::finished) << record.reason;
   ASSERT_EQ(record.snapshots.size(), 3U);
   EXPECT_GT(wall.count(), 3 * kDelay);
   EXPECT_LT(record.elapsed_s() + record.setup_s, wall.count() - 3 * kDelay);

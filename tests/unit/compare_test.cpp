@@ -107,7 +107,7 @@ TEST_F(Compare, TheHeatMapHasTheErrorOfEveryPixel) {
   tests::write_scan_lines(options_.image, {{{"Y", 1}}, "", {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}});
   tests::write_scan_lines(options_.reference, rgb(1, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}));
   options_.heat = folder_ / "heat.exr";
-  options_.heat_metric = PixelError::mse;
+  options_.heat_metric = "mse";
   expect(compare(), {"heat.exr: mse per pixel\n", "psnr_db             inf"});
   EXPECT_EQ(read_exr(options_.heat).channels.at("Y"), (std::vector<float>{0, 0}));
   tests::write_scan_lines(options_.image, {{{"Y", 4}}, "", {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}});

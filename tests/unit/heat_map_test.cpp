@@ -25,19 +25,19 @@ TEST(HeatMap, ScalesEndAtTheNinetyNinthPercentile) {
   std::vector<double> errors(101);
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = static_cast<double>(i);
   errors.push_back(kNan);
-  const HeatScale scale = heat_scale(PixelError::mse, errors);
+  const HeatScale scale = heat_scale(HeatScaling::logarithmic, errors);
   EXPECT_EQ(scale.top, 99);
   EXPECT_EQ(scale.bottom, 99e-4);  // four decades
-  EXPECT_EQ(heat_scale(PixelError::smape, errors).bottom, 0);
+  EXPECT_EQ(heat_scale(HeatScaling::linear, errors).bottom, 0);
   EXPECT_EQ(scale.above, 1U);
   EXPECT_EQ(scale.not_finite, 1U);
-  EXPECT_EQ(heat_scale(PixelError::mse, errors, 50).top, 50);
-  EXPECT_EQ(heat_scale(PixelError::mse, errors, 50).above, 50U);
-  EXPECT_EQ(heat_scale(PixelError::flip, {0.1, 0.2}).top, 1);
+  EXPECT_EQ(heat_scale(HeatScaling::logarithmic, errors, 50).top, 50);
+  EXPECT_EQ(heat_scale(HeatScaling::logarithmic, errors, 50).above, 50U);
+  EXPECT_EQ(heat_scale(HeatScaling::to_one, {0.1, 0.2}).top, 1);
   errors.assign(1000, 0);
   errors[5] = 7;
-  EXPECT_EQ(heat_scale(PixelError::relmse, errors).top, 7);
-  EXPECT_EQ(heat_scale(PixelError::relmse, {0, 0}).top, 1);
+  EXPECT_EQ(heat_scale(HeatScaling::logarithmic, errors).top, 7);
+  EXPECT_EQ(heat_scale(HeatScaling::logarithmic, {0, 0}).top, 1);
 }
 
 TEST(HeatMap, ColoursRunFromBlackToPaleYellow) {
@@ -64,7 +64,7 @@ TEST(HeatMap, SquaredErrorsAreLogarithmic) {
 TEST(HeatMap, PngHasItsPixelsInPlace) {
   const tests::TempFolder folder;
   const std::vector<double> errors{0, 1, 2, 2, 0, 1};  // 3x2
-  write_heat_map(folder / "heat.png", PixelError::mse, 3, 2, errors, HeatScale{0, 2, 0, 0});
+  write_heat_map(folder / "heat.png", error_metric("mse"), 3, 2, errors, HeatScale{0, 2, 0, 0});
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "heat.png").c_str()), 0);
@@ -78,7 +78,7 @@ TEST(HeatMap, PngHasItsPixelsInPlace) {
 
 TEST(HeatMap, ExrHasTheValues) {
   const tests::TempFolder folder;
-  write_heat_map(folder / "heat.exr", PixelError::smape, 2, 1, {0.25, 1e6}, HeatScale{0, 0.5, 1, 0});
+  write_heat_map(folder / "heat.exr", error_metric("smape"), 2, 1, {0.25, 1e6}, HeatScale{0, 0.5, 1, 0});
   const ExrImage exr = read_exr(folder / "heat.exr");
   EXPECT_EQ(exr.channels.at("Y"), (std::vector<float>{0.25F, 1e6F}));
   EXPECT_EQ(exr.metadata.at("metric"), "smape");
@@ -90,7 +90,7 @@ TEST(HeatMap, FailuresNameTheFileAndLeaveWhatIsThere) {
   const tests::TempFolder folder;
   EXPECT_THROW(check_heat_file("heat.jpg"), Error);
   try {
-    write_heat_map(folder / "none/heat.png", PixelError::mse, 1, 1, {0}, HeatScale{});
+    write_heat_map(folder / "none/heat.png", error_metric("mse"), 1, 1, {0}, HeatScale{});
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("none/heat.png: cannot be written"), std::string::npos);
@@ -100,11 +100,11 @@ TEST(HeatMap, FailuresNameTheFileAndLeaveWhatIsThere) {
 TEST(HeatMap, EveryMetricMapsItsPixels) {
   // The mean of a map is the metric.
   RadianceImage image{2, 1, 0, {{1, 2, 3}, {0, 0, 1}}, {}}, reference{2, 1, 0, {{1, 1, 0}, {4, 0, 0}}, {}};
-  EXPECT_EQ(error_map(PixelError::mse, image, reference), (std::vector<double>{10.0 / 3, 17.0 / 3}));
-  const std::vector<double> smape = error_map(PixelError::smape, image, reference);
+  EXPECT_EQ(error_metric("mse").map(image, reference), (std::vector<double>{10.0 / 3, 17.0 / 3}));
+  const std::vector<double> smape = error_metric("smape").map(image, reference);
   EXPECT_DOUBLE_EQ(smape[1], (4 / 4.01 + 0 + 1 / 1.01) / 3);
   image.mean[0].x = kNan;
-  EXPECT_TRUE(std::isnan(error_map(PixelError::mape, image, reference)[0]));
+  EXPECT_TRUE(std::isnan(error_metric("mape").map(image, reference)[0]));
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
-// The way of the data has one direction: a folder includes only what stands before it.
+// The way of the data has one direction: a folder includes only what stands before it, and no units stand in a
+// circle.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,61 @@ std::vector<std::string> includes_of(const fs::path& file) {
     if (std::regex_search(line, match, directive)) names.push_back(match[1]);
   }
   return names;
+}
+
+// A unit is a .h with its .cpp: the path without its extension.
+std::string unit_of(const std::string& path) { return path.substr(0, path.rfind('.')); }
+
+using Graph = std::map<std::string, std::set<std::string>>;
+
+// What each unit of the layers includes.
+Graph units() {
+  const fs::path root = QTRACE_SOURCE_DIR;
+  Graph graph;
+  for (const std::string& layer : kLayers) {
+    for (const auto& entry : fs::directory_iterator(root / layer)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      const std::string unit = unit_of(entry.path().lexically_relative(root).string());
+      std::set<std::string>& included = graph[unit];
+      for (const std::string& include : includes_of(entry.path())) {
+        if (unit_of(include) != unit) included.insert(unit_of(include));
+      }
+    }
+  }
+  return graph;
+}
+
+// Whether `to` is reached from `from` by one include or more.
+bool reaches(const Graph& graph, const std::string& from, const std::string& to) {
+  std::set<std::string> seen;
+  std::vector<std::string> waiting{from};
+  while (!waiting.empty()) {
+    const auto unit = graph.find(waiting.back());
+    waiting.pop_back();
+    if (unit == graph.end()) continue;
+    for (const std::string& next : unit->second) {
+      if (next == to) return true;
+      if (seen.insert(next).second) waiting.push_back(next);
+    }
+  }
+  return false;
+}
+
+TEST(Layers, NoUnitsStandInACircle) {
+  const Graph graph = units();
+  ASSERT_GT(graph.size(), 100U);
+  for (const auto& [unit, included] : graph) {
+    EXPECT_FALSE(reaches(graph, unit, unit)) << unit << " is included by what it includes";
+  }
+}
+
+TEST(Layers, NoFolderHoldsMoreUnitsThanOneFindsThingsIn) {
+  constexpr int kMost = 25;
+  std::map<std::string, int> folders;
+  for (const auto& [unit, included] : units()) ++folders[unit.substr(0, unit.rfind('/'))];
+  ASSERT_EQ(folders.size(), kLayers.size());
+  for (const auto& [folder, count] : folders) EXPECT_LE(count, kMost) << folder;
 }
 
 TEST(Layers, NoFolderIncludesALaterOne) {

@@ -1,14 +1,18 @@
 // Hashes and the parts of manifests.
+#include "engine/scene/analytic.h"
 #include "experiments/runtime/manifest.h"
 #include "experiments/study/experiment.h"
 #include "experiments/config/config_hash.h"
 #include "experiments/runtime/scene_hash.h"
 #include "experiments/runtime/progress.h"
+#include "experiments/files/hash.h"
+#include "experiments/reference/reference.h"
 #include "experiments/run/run.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -60,6 +64,44 @@ TEST(ManifestHash, ConfigHashReplacesTheScenePathByItsContent) {
   EXPECT_NE(config_hash(config, "s"), config_hash(config, "t"));
   other.render.rl.bin_floor = 0.2;
   EXPECT_NE(config_hash(config, "s"), config_hash(other, "s"));
+}
+
+// What is kept under these names must be found again by later programs: a knob or a member that is added enters a
+// hash only where it differs from what older programs did (KnobInfo::implied, Hasher::add_later).
+TEST(ManifestHash, StandsStillWhileTheProgramGrows) {
+  EXPECT_EQ(config_hash(RunConfig{}, "s"), "88e8341523e6700ac0b1bb676feed3dd");
+  EXPECT_EQ(reference_spec(RunConfig{}, "s").hash, "6997ba0342f46cbb784c8b2ead21516c");
+  EXPECT_EQ(scene_hash(furnace_box(0.5F, 0.5F)), "b063b840ee40e741e830d0b12a6e9a52");
+}
+
+struct Grown {
+  int first = 1;
+  double later = 0.5;
+};
+
+template <class Visitor>
+void visit_knobs(Visitor& visit, Grown& grown) {
+  visit(KnobInfo{"first", "", "there from the start"}, grown.first);
+  visit(KnobInfo{.name = "later", .unit = "", .help = "came later", .implied = "0.25"}, grown.later);
+}
+
+TEST(ManifestHash, AKnobThatCameLaterLeavesNoTraceWhereItDoesWhatWasDoneBefore) {
+  EXPECT_EQ(write_knobs(Grown{1, 0.25}, Written::identity), (Json{{"first", 1}}));
+  EXPECT_EQ(write_knobs(Grown{1, 0.5}, Written::identity), (Json{{"first", 1}, {"later", 0.5}}));
+  EXPECT_EQ(write_knobs(Grown{1, 0.25}), (Json{{"first", 1}, {"later", 0.25}})) << "manifests say all";
+}
+
+TEST(ManifestHash, AMemberThatCameLaterLeavesNoTraceWhereItDoesWhatWasDoneBefore) {
+  const auto hash = [](std::optional<float> coat, std::optional<float> glass) {
+    Hasher hasher;
+    hasher.add(1);
+    if (coat) hasher.add_later("coat", *coat, 0.0F);
+    if (glass) hasher.add_later("glass", *glass, 0.0F);
+    return hasher.digest();
+  };
+  EXPECT_EQ(hash({}, {}), hash(0.0F, 0.0F));
+  EXPECT_NE(hash({}, {}), hash(0.5F, 0.0F));
+  EXPECT_NE(hash(0.5F, 0.0F), hash(0.0F, 0.5F)) << "the same value of another member";
 }
 
 TEST(ManifestHash, CanonicalTextHasOneOrder) {

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -187,17 +190,32 @@ TEST(Metrics, BlackAgainstBlackIsNoError) {
 }
 
 TEST(Metrics, DefinitionsStateTheirConstants) {
-  const std::vector<MetricDefinition> metrics = metric_definitions();
-  const auto formula = [&metrics](const std::string& name) {
-    for (const MetricDefinition& metric : metrics) {
-      if (metric.name == name) return metric.formula;
-    }
-    return std::string();
-  };
+  const auto formula = [](const char* name) { return error_metric(name).formula; };
   EXPECT_EQ(formula("relmse"), "mean((a - r)^2 / (r^2 + 0.01))");
   EXPECT_NE(formula("relmse_trimmed").find("0.1 %"), std::string::npos);
   EXPECT_NE(formula("at_reference_floor").find("3 * reference_relmse"), std::string::npos);
 }
+
+TEST(Metrics, TheListHasEveryNumberOfAComparison) {
+  ErrorMetrics errors{1, 2, 3, 4, 5, 6, 7, 8, 9, ReferenceNoise{0.25, 0.5}};
+  const auto number = [&](const char* name) { return error_metric(name).number(errors); };
+  EXPECT_EQ(number("mse"), 1);
+  EXPECT_EQ(number("smape"), 5);
+  EXPECT_EQ(number("flip"), 7);
+  EXPECT_EQ(number("mse_corrected"), 0.75);
+  EXPECT_EQ(number("reference_relmse"), 0.5);
+  EXPECT_EQ(error_metric("non_finite_pixels").value(errors), CsvValue(std::uint64_t{9}));
+  EXPECT_EQ(error_metric("at_reference_floor").value(errors), CsvValue(false));
+  errors.flip.reset();
+  EXPECT_EQ(error_metric("flip").value(errors), CsvValue());
+  std::set<std::string> names;
+  for (const Metric& metric : error_metrics()) {
+    EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
+    EXPECT_FALSE(metric.label.empty() || metric.formula.empty() || metric.source.empty()) << metric.name;
+  }
+}
+
+TEST(Metrics, AnUnknownNameIsAnError) { EXPECT_THROW(error_metric("rmse"), Error); }
 
 }  // namespace
 }  // namespace qtrace::experiments

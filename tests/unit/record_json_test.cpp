@@ -1,6 +1,7 @@
 #include "experiments/records/record_json.h"
 
 #include "engine/core/check.h"
+#include "experiments/records/columns.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 RunRecord full_record() {
   RunRecord record;
   record.scene = "scene";
-  record.status = "finished";
+  record.status = RunStatus::finished;
   record.reason = "a \"reason\"";
   record.started = "2026-01-01T00:00:00Z";
   record.reference_hash = "r";

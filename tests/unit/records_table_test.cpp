@@ -11,7 +11,7 @@ RunRecord record(const std::string& scene, const std::string& method, double hos
   RunRecord result;
   result.run = {scene + method, scene + " / " + method, {scene, method}, {}};
   result.scene = scene;
-  result.status = "finished";
+  result.status = RunStatus::finished;
   FrameRecord frame;
   frame.host_ms = host_ms;
   frame.gpu_ms = host_ms;
@@ -112,7 +112,7 @@ TEST(RecordsTable, FirefliesHaveAColumnAndClampingALine) {
 
 TEST(RecordsTable, NamesFailedRunsAndFlagsTheFloor) {
   RunRecord failed = record("simple", "RL", 1, 1);
-  failed.status = "failed";
+  failed.status = RunStatus::failed;
   failed.reason = "the device was lost";
   RunRecord at_floor = record("simple", "NEE", 1, 1);
   at_floor.snapshots[0].errors.reference = ReferenceNoise{1, 1};

@@ -1,6 +1,6 @@
 // CSV after RFC 4180, and the columns.
-#include "experiments/records/records.h"
-#include "experiments/records/configurations.h"
+#include "experiments/records/columns.h"
+#include "experiments/records/figures.h"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ RunRecord run_record(const std::string& configuration, std::uint32_t seed, doubl
   record.run.config.render.seed = seed;
   record.run.config.frames = 3;
   record.scene = "box";
-  record.status = "finished";
+  record.status = RunStatus::finished;
   record.frames = {frame_record(1, 100, 0.1), frame_record(2, 2, 0.102), frame_record(3, 4, 0.106)};
   SnapshotRecord snapshot;
   snapshot.frame = 3;
@@ -180,7 +180,7 @@ TEST(Records, WarmupIsOutOfTheMedianAndInTheTotal) {
 TEST(Records, FailedRunsHaveNoErrorsButAReason) {
   const auto columns = run_columns({});
   RunRecord row = run_record("a", 1, 0.5);
-  row.status = "failed";
+  row.status = RunStatus::failed;
   row.reason = "out of memory";
   EXPECT_EQ(field(columns, row, "relmse"), "");
   EXPECT_EQ(field(columns, row, "relmse_x_s"), "");
@@ -207,7 +207,7 @@ TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
 
 TEST(Records, CellsPoolFramesAndAverageErrors) {
   RunRecord failed = run_record("RL", 3, 0);
-  failed.status = "failed";
+  failed.status = RunStatus::failed;
   const std::vector<Configuration> configurations =
       collect_configurations({run_record("RL", 1, 0.25), run_record("NEE", 1, 1), run_record("RL", 2, 0.75), failed});
   ASSERT_EQ(configurations.size(), 2U);
@@ -215,16 +215,16 @@ TEST(Records, CellsPoolFramesAndAverageErrors) {
   EXPECT_EQ(configurations[0].runs, 3U);
   EXPECT_EQ(configurations[0].finished, 2U);
   EXPECT_EQ(configurations[0].host_ms->median, 3);
-  EXPECT_EQ(configurations[0].relmse->mean, 0.5);
-  EXPECT_TRUE(configurations[0].relmse->low.has_value());
-  EXPECT_NEAR(configurations[0].relmse_x_s->mean, 0.5 * 0.106, 1e-15);
+  EXPECT_EQ(configurations[0].figure("relmse")->mean, 0.5);
+  EXPECT_TRUE(configurations[0].figure("relmse")->low.has_value());
+  EXPECT_NEAR(configurations[0].figure("relmse_x_s")->mean, 0.5 * 0.106, 1e-15);
   EXPECT_EQ(configurations[0].non_finite, 9U);
   EXPECT_EQ(configurations[0].clamped_samples, 45U);
-  EXPECT_EQ(configurations[0].fireflies_per_million->mean, 200000);
-  EXPECT_EQ(configurations[0].fireflies_per_million->sd, 0);
-  EXPECT_EQ(configurations[0].clamp_bias->mean, -0.0625);
-  EXPECT_FALSE(configurations[0].relmse_filtered.has_value());
-  EXPECT_FALSE(configurations[1].relmse->low.has_value());
+  EXPECT_EQ(configurations[0].figure("fireflies_per_million")->mean, 200000);
+  EXPECT_EQ(configurations[0].figure("fireflies_per_million")->sd, 0);
+  EXPECT_EQ(configurations[0].figure("clamp_bias")->mean, -0.0625);
+  EXPECT_FALSE(configurations[0].figure("filtered_relmse").has_value());
+  EXPECT_FALSE(configurations[1].figure("relmse")->low.has_value());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The scripts of a submission, run by bash as Slurm would: what reaches the program, and what signals do.
-#include "experiments/commands/slurm.h"
+#include "experiments/commands/submit.h"
 
-#include "experiments/commands/command.h"
+#include "experiments/runtime/subprocess.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "experiments/records/configuration_table.h"
+#include "experiments/records/summary_tables.h"
 
 #include "experiments/files/text_table.h"
 
@@ -29,15 +29,19 @@ std::string fraction_text(std::size_t part, std::size_t whole) {
 }
 
 std::string frames_text(const Configuration& configuration) {
-  return configuration.frames == configuration.planned_frames ? std::to_string(configuration.frames)
-                                            : fmt::format("{} of {}", configuration.frames, configuration.planned_frames);
+  return configuration.frames == configuration.planned_frames
+             ? std::to_string(configuration.frames)
+             : fmt::format("{} of {}", configuration.frames, configuration.planned_frames);
 }
 
-std::string seeds_text(const Configuration& configuration) { return fraction_text(configuration.finished, configuration.runs); }
+std::string seeds_text(const Configuration& configuration) {
+  return fraction_text(configuration.finished, configuration.runs);
+}
 
 std::string floor_text(const Configuration& configuration) {
-  return configuration.at_reference_floor == 0 ? "no"
-                                      : fmt::format("{} of {}", configuration.at_reference_floor, configuration.finished);
+  return configuration.at_reference_floor == 0
+             ? "no"
+             : fmt::format("{} of {}", configuration.at_reference_floor, configuration.finished);
 }
 
 // "pass", or "fail 2, pass 3" where seeds differ.
@@ -73,20 +77,33 @@ std::vector<TableColumn> table_columns(const Experiment& experiment, bool some_f
       {"GPU ms/frame", [](const Configuration& configuration) { return times_text(configuration.gpu_ms); }},
   };
   if (!experiment.published.ms_per_frame.by_configuration.empty()) {
-    columns.push_back(
-        {"published ms", [&experiment](const Configuration& configuration) { return published_text(experiment, configuration); }});
+    columns.push_back({"published ms", [&experiment](const Configuration& configuration) {
+                         return published_text(experiment, configuration);
+                       }});
   }
-  columns.push_back({"relMSE", [](const Configuration& configuration) { return estimate_text(configuration.relmse); }});
+  columns.push_back({"relMSE", [](const Configuration& configuration) {
+                       return estimate_text(configuration.figure("relmse"));
+                     }});
   if (some_filter) {
-    columns.push_back({"relMSE filtered (biased)", nothing_text,
-                       [](const Configuration& configuration) { return estimate_text(configuration.relmse_filtered); }});
+    columns.push_back({"relMSE filtered (biased)", nothing_text, [](const Configuration& configuration) {
+                         return estimate_text(configuration.figure("filtered_relmse"));
+                       }});
   }
   columns.insert(
       columns.end(),
-      {{"s", [](const Configuration& configuration) { return configuration.elapsed_s ? three_digits(configuration.elapsed_s->mean) : kNothing; }},
-       {"relMSE × s", [](const Configuration& configuration) { return estimate_text(configuration.relmse_x_s); }},
-       {"fireflies / M samples", [](const Configuration& configuration) { return estimate_text(configuration.fireflies_per_million); }},
-       {"non-finite", [](const Configuration& configuration) { return std::to_string(configuration.non_finite); }},
+      {{"s",
+        [](const Configuration& configuration) {
+          const auto seconds = configuration.figure("elapsed_s");
+          return seconds ? three_digits(seconds->mean) : kNothing;
+        }},
+       {"relMSE × s",
+        [](const Configuration& configuration) { return estimate_text(configuration.figure("relmse_x_s")); }},
+       {"fireflies / M samples",
+        [](const Configuration& configuration) {
+          return estimate_text(configuration.figure("fireflies_per_million"));
+        }},
+       {"non-finite",
+        [](const Configuration& configuration) { return std::to_string(configuration.non_finite); }},
        {"at floor", floor_text}});
   if (some_verdict) columns.push_back({"verdict", verdict_text});
   return columns;
@@ -101,6 +118,13 @@ std::vector<std::size_t> row_axes(const Experiment& experiment) {
   return axes;
 }
 
+std::string interval_text(const std::optional<Interval>& interval) {
+  if (!interval) return kNothing;
+  return interval->low
+             ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", interval->value, *interval->low, *interval->high)
+             : fmt::format("{:.3g}", interval->value);
+}
+
 }  // namespace
 
 std::string estimate_text(const std::optional<Estimate>& value) {
@@ -109,12 +133,14 @@ std::string estimate_text(const std::optional<Estimate>& value) {
                     : fmt::format("{:.3g}", value->mean);
 }
 
-std::string configuration_table(const Experiment& experiment, const std::vector<const Configuration*>& configurations) {
+std::string configuration_table(const Experiment& experiment,
+                                const std::vector<const Configuration*>& configurations) {
   const std::vector<std::size_t> axes = row_axes(experiment);
-  const bool some_filter =
-      std::ranges::any_of(configurations, [](const Configuration* configuration) { return configuration->relmse_filtered.has_value(); });
-  const bool some_verdict =
-      std::ranges::any_of(configurations, [](const Configuration* configuration) { return !configuration->verdicts.empty(); });
+  const bool some_filter = std::ranges::any_of(configurations, [](const Configuration* configuration) {
+    return configuration->figure("filtered_relmse").has_value();
+  });
+  const bool some_verdict = std::ranges::any_of(
+      configurations, [](const Configuration* configuration) { return !configuration->verdicts.empty(); });
   const std::vector<TableColumn> columns = table_columns(experiment, some_filter, some_verdict);
   std::vector<std::string> header;
   for (const std::size_t axis : axes) header.push_back(experiment.axes[axis].name);
@@ -134,9 +160,34 @@ std::string configuration_table(const Experiment& experiment, const std::vector<
   };
   for (const Configuration* configuration : configurations) {
     add_row(*configuration, &TableColumn::plain);
-    if (configuration->relmse_filtered) add_row(*configuration, &TableColumn::filtered);
+    if (configuration->figure("filtered_relmse")) add_row(*configuration, &TableColumn::filtered);
   }
   return markdown_table(header, rows, labels);
+}
+
+std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& scene) {
+  std::vector<std::string> header{"configuration", "baseline"};
+  const std::size_t labels = header.size();
+  for (const Figure& figure : run_figures()) {
+    if (figure.is_compared) header.push_back(figure.label);
+  }
+  header.emplace_back("time to the baseline's relMSE");
+  std::vector<std::vector<std::string>> rows;
+  for (const Ratios& ratio : ratios) {
+    if (ratio.scene != scene) continue;
+    std::vector<std::string>& row = rows.emplace_back();
+    row = {ratio.configuration, ratio.baseline};
+    for (const Figure& figure : run_figures()) {
+      if (!figure.is_compared) continue;
+      const auto found = ratio.figures.find(figure.column.name);
+      row.push_back(
+          interval_text(found == ratio.figures.end() ? std::nullopt : std::optional(found->second)));
+    }
+    row.push_back(interval_text(ratio.times.at("relmse").ratio));
+  }
+  if (rows.empty()) return "";
+  return "\nThe baseline's figure divided by the configuration's; above 1, the baseline needs more:\n\n" +
+         markdown_table(header, rows, labels);
 }
 
 }  // namespace qtrace::experiments

@@ -1,15 +1,25 @@
-#include "experiments/commands/config_command.h"
+#include "experiments/commands/config.h"
 
 #include "experiments/config/config_errors.h"
-#include "experiments/study/experiment.h"
 #include "experiments/config/json_schema.h"
 #include "experiments/runtime/manifest.h"
+#include "experiments/study/experiment.h"
 
 #include <cstdio>
+#include <memory>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace qtrace::experiments {
 namespace {
+
+struct ConfigOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> sets;
+  std::string device;
+  bool no_device = false;
+};
 
 // Everything that `run` checks before its first frame; what is wrong goes to stderr. Returns whether all is
 // good.
@@ -46,31 +56,31 @@ int check_configs(const ConfigOptions& options) {
 
 }  // namespace
 
-void add_config_command(CLI::App& app, ConfigOptions& options) {
-  options.command =
+void add_config_command(CLI::App& app, Action& action) {
+  CLI::App* config =
       app.add_subcommand("config", "The schema of experiment files, and whether files are good");
-  options.command->require_subcommand(1);
-  options.schema = options.command->add_subcommand(
+  config->require_subcommand(1);
+  CLI::App* schema = config->add_subcommand(
       "schema", "Prints a JSON Schema of experiment files, for editors and other programs");
-  options.check = options.command->add_subcommand(
+  schema->callback([&action] {
+    action = [] {
+      fmt::print("{}", json_text(config_schema()));
+      return 0;
+    };
+  });
+  CLI::App* check = config->add_subcommand(
       "check",
       "Checks files and their scenes as a run would, without rendering: exit code 1 if one is wrong");
-  options.check->add_option("FILE", options.files, "experiment files (JSON)")->required();
-  options.check->add_option("--set", options.sets, "key=value, as of `qtrace run`")
+  const auto options = std::make_shared<ConfigOptions>();
+  check->add_option("FILE", options->files, "experiment files (JSON)")->required();
+  check->add_option("--set", options->sets, "key=value, as of `qtrace run`")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
-  options.check->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
-  options.check->add_flag("--no-device", options.no_device,
-                          "leaves out what depends on a device: whether its buffers are large enough");
-}
-
-int config_command(const ConfigOptions& options) {
-  if (options.schema->parsed()) {
-    fmt::print("{}", json_text(config_schema()));
-    return 0;
-  }
-  return check_configs(options);
+  check->add_option("--device", options->device, "index or part of a name, see `qtrace devices`");
+  check->add_flag("--no-device", options->no_device,
+                  "leaves out what depends on a device: whether its buffers are large enough");
+  check->callback([&action, options] { action = [options] { return check_configs(*options); }; });
 }
 
 }  // namespace qtrace::experiments

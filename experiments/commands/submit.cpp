@@ -1,14 +1,16 @@
-#include "experiments/commands/slurm.h"
+#include "experiments/commands/submit.h"
 
 #include "engine/core/check.h"
 #include "experiments/files/atomic_file.h"
-#include "experiments/commands/command.h"
-#include "experiments/study/experiment.h"
 #include "experiments/runtime/progress.h"
 #include "experiments/runtime/scene_store.h"
+#include "experiments/runtime/subprocess.h"
+#include "experiments/study/experiment.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
+#include <memory>
 
 namespace qtrace::experiments {
 namespace {
@@ -26,20 +28,14 @@ std::vector<Plan> plan_all(const SubmitOptions& options) {
   Progress progress(Progress::detect(false));
   SceneStore scenes;
   std::vector<Plan> plans;
-  for (const std::string& file : options.configs) {
-    Plan plan{load_experiment(file, options.sets), {}, {}};
-    const Experiment& experiment = plan.experiment;
-    for (const Plan& other : plans) {
-      check(other.experiment.name != experiment.name,
-            "{} and {} are both called '{}'; their results would share a folder",
-            other.experiment.file.string(), file, experiment.name);
-    }
+  for (Experiment& experiment : load_experiments(options.configs, options.sets, scenes, progress)) {
     const std::size_t runs = experiment.runs.size();
     check(options.shards >= 1 && static_cast<std::size_t>(options.shards) <= runs,
-          "--shards is {}, but must be from 1 to {}, the number of runs of {}", options.shards, runs, file);
-    load_scenes(experiment, scenes, progress);
-    plan.folder = fs::absolute(fs::path(options.out) / experiment.name / "slurm").lexically_normal();
-    plan.scripts = slurm_scripts(experiment, options, fs::canonical("/proc/self/exe"), plan.folder);
+          "--shards is {}, but must be from 1 to {}, the number of runs of {}", options.shards, runs,
+          experiment.file.string());
+    Plan plan{std::move(experiment), {}, {}};
+    plan.folder = fs::absolute(fs::path(options.out) / plan.experiment.name / "slurm").lexically_normal();
+    plan.scripts = slurm_scripts(plan.experiment, options, fs::canonical("/proc/self/exe"), plan.folder);
     plans.push_back(std::move(plan));
   }
   return plans;
@@ -89,7 +85,7 @@ std::vector<std::string> submit_jobs(const Plan& plan) {
   return jobs;
 }
 
-std::string report(const Plan& plan, const std::vector<std::string>& jobs, int shards) {
+std::string jobs_text(const Plan& plan, const std::vector<std::string>& jobs, int shards) {
   std::string text =
       fmt::format("{}: {} runs in {} shards\n", plan.experiment.name, plan.experiment.runs.size(), shards);
   text += fmt::format("  job {}: references\n  job {}: array of shards 1 to {}, after {}\n", jobs[0], jobs[1],
@@ -125,9 +121,46 @@ std::string submit(const SubmitOptions& options) {
     for (const SlurmScript& script : plan.scripts) {
       write_file(plan.folder / (script.stage + ".sbatch"), script.text);
     }
-    text += report(plan, submit_jobs(plan), options.shards);
+    text += jobs_text(plan, submit_jobs(plan), options.shards);
   }
   return text;
+}
+
+void add_submit_command(CLI::App& app, Action& action) {
+  const auto kept = std::make_shared<SubmitOptions>();
+  SubmitOptions& options = *kept;
+  CLI::App* submit = app.add_subcommand(
+      "submit", "Submit experiments to a cluster: references, then the runs in shards, then their merge");
+  submit->add_option("CONFIG", options.configs, "experiment file (JSON)")->required();
+  submit->add_flag("--slurm")->required()->description("the cluster's scheduler; the only one so far");
+  submit->add_option("--shards", options.shards, "parts that can run at the same time: tasks of a job array")
+      ->required();
+  submit->add_option("--set", options.sets, "key=value, as in `qtrace run`")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  submit->add_option("--out", options.out, "folder of the results, which all nodes see")
+      ->capture_default_str();
+  submit->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  submit->add_option("--cpus", options.cpus, "of each job; also the threads of the software driver")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  submit->add_option("--time", options.time, "of each job, as sbatch wants it; out of it, a job continues");
+  submit->add_option("--partition", options.partition, "of all jobs");
+  submit
+      ->add_option("--sbatch", options.sbatch,
+                   "further options of all jobs: --sbatch='--mem=4G --gres=gpu:1'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  submit->add_flag("--dry-run", options.dry_run,
+                   "check everything, print the scripts, write and submit nothing");
+  submit->callback([&action, kept] {
+    action = [kept] {
+      fmt::print("{}", experiments::submit(*kept));
+      return 0;
+    };
+  });
 }
 
 }  // namespace qtrace::experiments

@@ -38,10 +38,4 @@ std::vector<SlurmScript> slurm_scripts(const Experiment& experiment, const Submi
                                        const std::filesystem::path& program,
                                        const std::filesystem::path& folder);
 
-// Reads and checks all configs, writes their scripts to OUT/<experiment>/slurm, and submits them. Returns
-// what the user needs to know; with dry_run the scripts, and nothing is written or submitted.
-// Throws Error before the first job where something is wrong, and cancels the jobs of an experiment again
-// where Slurm refuses a later one.
-std::string submit(const SubmitOptions& options);
-
 }  // namespace qtrace::experiments

@@ -1,4 +1,4 @@
-#include "experiments/commands/command.h"
+#include "experiments/runtime/subprocess.h"
 
 #include "engine/core/check.h"
 

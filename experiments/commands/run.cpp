@@ -1,8 +1,9 @@
-#include "experiments/commands/run_command.h"
+#include "experiments/commands/run.h"
 
 #include "engine/core/check.h"
 #include "experiments/commands/dry_run.h"
 #include "experiments/runtime/manifest.h"
+#include "experiments/study/experiment.h"
 #include "experiments/study/plan.h"
 
 #include <unistd.h>
@@ -11,10 +12,29 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace qtrace::experiments {
 namespace {
 
+struct RunOptions {
+  std::vector<std::string> words;  // the command line
+  std::vector<std::string> configs;
+  std::vector<std::string> sets;
+  std::string device;
+  RunChoices choices;
+  std::string shard;       // "i/n"; empty: all
+  double time_budget = 0;  // seconds; 0: as long as it takes
+  bool dry_run = false;
+  bool list = false;
+  bool quiet = false;
+  std::optional<double> again;  // started again by itself, with these seconds left, or 0 for no budget
+};
+
+constexpr const char* kAgain = "--started-again";
 constexpr double kMinute = 60, kHour = 3600;
 
 template <class T>
@@ -50,39 +70,12 @@ std::string parse_duration(std::string& text) {
   return "";
 }
 
-std::vector<Experiment> load_all(const RunOptions& options, SceneStore& scenes, Progress& progress) {
-  std::vector<Experiment> experiments;
-  for (const std::string& file : options.configs) {
-    Experiment next = load_experiment(file, options.sets);
-    for (const Experiment& other : experiments) {
-      check(other.name != next.name, "{} and {} are both called '{}'; their results would share a folder",
-            other.file.string(), next.file.string(), next.name);
-    }
-    load_scenes(next, scenes, progress);
-    chosen_turns(next, options.choices);
-    experiments.push_back(std::move(next));
-  }
-  return experiments;
-}
-
 // The same command once more in place of this process, which hangs in the driver: what failed is not tried
 // again, and the time that is left is all the time there is.
 [[noreturn]] void start_again(const RunOptions& options, std::optional<double> seconds_left) {
-  std::vector<std::string> words{"qtrace", "run"};
-  words.insert(words.end(), options.configs.begin(), options.configs.end());
-  const auto add = [&words](const std::string& name, const std::string& value) {
-    if (!value.empty()) words.insert(words.end(), {name, value});
-  };
-  for (const std::string& set : options.sets) add("--set", set);
-  add("--out", options.choices.root.string());
-  add("--device", options.device);
-  add("--shard", options.shard);
-  add("--only", options.choices.only);
-  if (seconds_left) add("--time-budget", std::to_string(std::max(1.0, *seconds_left)));
-  if (options.choices.fail_fast) words.emplace_back("--fail-fast");
-  if (options.choices.references_only) words.emplace_back("--references-only");
-  if (options.quiet) words.emplace_back("--quiet");
-  words.emplace_back("--keep-failed");
+  std::vector<std::string> words = options.words;
+  if (options.again) words.resize(words.size() - 2);  // what the last start added
+  words.insert(words.end(), {kAgain, std::to_string(seconds_left ? std::max(1.0, *seconds_left) : 0)});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -118,44 +111,13 @@ int run_all(const RunOptions& options, const std::vector<Experiment>& experiment
   }
 }
 
-}  // namespace
-
-void add_run_command(CLI::App& app, RunOptions& options) {
-  CLI::App* run =
-      app.add_subcommand("run", "Run all runs of the given experiments, or what is missing of them");
-  RunChoices& choices = options.choices;
-  run->add_option("CONFIG", options.configs, "experiment file (JSON); `qtrace keys` lists its keys")
-      ->required();
-  run->add_option("--set", options.sets,
-                  "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
-                  "--set 'sweep.seed=[1,2]'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  run->add_option("--out", choices.root, "folder of the results")->capture_default_str();
-  run->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
-  run->add_option("--only", choices.only, "only the runs whose name fits this pattern with * and ?");
-  run->add_option(
-      "--shard", options.shard,
-      "i/n: only the i-th of n parts of the runs; the parts may run at the same time, and --merge ends them");
-  run->add_option("--time-budget", options.time_budget,
-                  "stops after this time, such as 8h or 90min, with all configurations about as far as each other")
-      ->transform(CLI::Validator(parse_duration, "TIME"));
-  run->add_flag("--fresh", choices.fresh, "puts earlier results aside instead of going on with them");
-  run->add_flag("--fail-fast", choices.fail_fast, "stops at the first run that fails");
-  run->add_flag("--keep-failed", choices.keep_failed, "runs that failed before are not tried again");
-  run->add_flag("--references-only", choices.references_only,
-                "renders the references that are missing, no runs");
-  run->add_flag("--merge", choices.merge, "renders nothing: writes the files about the runs that are there");
-  run->add_flag("--list", options.list, "lists the names of the chosen runs, and does nothing");
-  run->add_flag(
-      "--dry-run", options.dry_run,
-      "checks everything, measures some frames, tells what is to do and what it takes; writes nothing");
-  run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
-}
-
 int run_command(const RunOptions& given) {
   RunOptions options = given;
+  if (options.again) {
+    options.choices.fresh = false;
+    options.choices.keep_failed = true;
+    options.time_budget = *options.again;
+  }
   if (!options.shard.empty()) options.choices.shard = parse_shard(options.shard);
   check(!options.choices.merge || options.choices.shard.is_whole(),
         "--merge takes all shards together; leave --shard out");
@@ -164,7 +126,9 @@ int run_command(const RunOptions& given) {
       "--fresh would put aside what other shards write; move the folder away by hand before the first shard");
   Progress progress(Progress::detect(options.quiet));
   SceneStore scenes;
-  const std::vector<Experiment> experiments = load_all(options, scenes, progress);
+  const std::vector<Experiment> experiments =
+      load_experiments(options.configs, options.sets, scenes, progress);
+  for (const Experiment& experiment : experiments) chosen_turns(experiment, options.choices);  // or an error
   if (options.list) {
     for (const Experiment& experiment : experiments) {
       for (const Turn& turn : chosen_turns(experiment, options.choices)) {
@@ -182,6 +146,48 @@ int run_command(const RunOptions& given) {
     return 0;
   }
   return run_all(options, experiments, scenes, progress);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& words, Action& action) {
+  const auto kept = std::make_shared<RunOptions>();
+  RunOptions& options = *kept;
+  options.words = words;
+  CLI::App* run =
+      app.add_subcommand("run", "Run all runs of the given experiments, or what is missing of them");
+  RunChoices& choices = options.choices;
+  run->add_option("CONFIG", options.configs, "experiment file (JSON); `qtrace keys` lists its keys")
+      ->required();
+  run->add_option("--set", options.sets,
+                  "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
+                  "--set 'sweep.seed=[1,2]'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  run->add_option("--out", choices.root, "folder of the results")->capture_default_str();
+  run->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
+  run->add_option("--only", choices.only, "only the runs whose name fits this pattern with * and ?");
+  run->add_option(
+      "--shard", options.shard,
+      "i/n: only the i-th of n parts of the runs; the parts may run at the same time, and --merge ends them");
+  run->add_option(
+         "--time-budget", options.time_budget,
+         "stops after this time, such as 8h or 90min, with all configurations about as far as each other")
+      ->transform(CLI::Validator(parse_duration, "TIME"));
+  run->add_flag("--fresh", choices.fresh, "puts earlier results aside instead of going on with them");
+  run->add_flag("--fail-fast", choices.fail_fast, "stops at the first run that fails");
+  run->add_flag("--keep-failed", choices.keep_failed, "runs that failed before are not tried again");
+  run->add_flag("--references-only", choices.references_only,
+                "renders the references that are missing, no runs");
+  run->add_flag("--merge", choices.merge, "renders nothing: writes the files about the runs that are there");
+  run->add_flag("--list", options.list, "lists the names of the chosen runs, and does nothing");
+  run->add_flag(
+      "--dry-run", options.dry_run,
+      "checks everything, measures some frames, tells what is to do and what it takes; writes nothing");
+  run->add_flag("--quiet", options.quiet, "no progress; warnings and the table stay");
+  run->add_option(kAgain, options.again)->group("");  // not for people
+  run->callback([&action, kept] { action = [kept] { return run_command(*kept); }; });
 }
 
 }  // namespace qtrace::experiments

@@ -1,0 +1,13 @@
+// What every file of this folder adds to the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace qtrace::experiments {
+
+// Does what the command line asks for and returns the exit code.
+using Action = std::function<int()>;
+
+}  // namespace qtrace::experiments
