@@ -12,6 +12,7 @@
 #include "tests/bench/rounds.h"
 #include "tests/bench/scenes.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 

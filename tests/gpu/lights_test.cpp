@@ -7,6 +7,7 @@
 #include "tests/support/report.h"
 #include "tests/support/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qtrace::test {
