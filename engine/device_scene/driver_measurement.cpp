@@ -1,6 +1,6 @@
 #include "engine/device_scene/driver_measurement.h"
 
-#include "engine/accel/bvh.h"
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/driver_probe.h"

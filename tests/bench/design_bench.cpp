@@ -1,5 +1,6 @@
 #include "tests/bench/design_bench.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/gpu/driver.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"

@@ -1,4 +1,5 @@
 // The rules at work: what their tables approach in closed scenes whose incident radiance is known.
+#include "engine/accel/build_bvh.h"
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
@@ -130,12 +131,12 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   std::vector<glm::dvec2> sums(states.size() * 16, glm::dvec2(0));  // radiance, samples
   constexpr std::uint32_t kRays = 1 << 19;
   const auto found = probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "sampling/random.glsl"}, "",
+      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
       radiance +
           ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
           // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.
           "vec4 u = random_units(key, 1u);\nvec4 w = random_units(key, 2u);\n"
-          "vec3 d = camera_direction(u.xy * vec2(parameters.image.xy));\n"
+          "vec3 d = camera_direction(u.xy * vec2(parameters.image_size));\n"
           "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
           "vec3 next = cosine_direction(u.zw, s.normal);\n"
           "s = surface_at(closest_hit(ray_origin(s, next), next), next);\n"

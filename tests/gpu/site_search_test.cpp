@@ -117,7 +117,7 @@ std::vector<glm::uvec4> search(const std::vector<Query>& queries, SiteSearch how
 gpu::Buffer bind_threshold(double threshold) {
   device();
   gpu::Parameters parameters{};
-  parameters.rl.z = static_cast<float>(threshold);
+  parameters.cell_normal_threshold = static_cast<float>(threshold);
   gpu::Buffer block("parameters", sizeof(gpu::Parameters));
   block.write(0, &parameters, sizeof(parameters));
   block.bind_uniform(gpu::BINDING_PARAMETERS);

@@ -1,0 +1,149 @@
+// A path from its first ray on: at most max_bounces scattering events. Its radiance is what arrives at the ray's
+// origin, the emission that the first ray meets included.
+#include "geometry/intersect.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
+#include "light/nee.glsl"
+#include "material/bsdf.glsl"
+#include "path/bsdf_sample.glsl"
+#include "path/path.glsl"
+#include "path/roulette.glsl"
+#include "path/rules.glsl"
+#include "sampling/direction.glsl"
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#ifdef HAS_TABLE
+#include "learning/cells.glsl"
+#endif
+
+void leave_scene(inout Path path, uint bounce) {
+  vec3 radiance = parameters.environment;
+  float weight = 0.0;
+#ifdef HAS_ENVIRONMENT
+  weight = NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;
+  path.radiance += path.throughput * radiance * weight;
+#endif
+  record_miss(path, bounce, radiance, weight);
+}
+
+// Emission at the hit, and what the ray that led here is worth.
+void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, RandomKey key) {
+  vec3 emitted = emitted_radiance(e.surface);
+  float weight =
+      bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
+  path.radiance += path.throughput * emitted * weight;
+  record_hit(path, e, next, bounce, emitted, weight, scatters, key);
+}
+
+// One scattering event. Returns whether the path goes on.
+bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, RandomKey key) {
+  uint block = bounce * BLOCKS_PER_EVENT;
+  vec3 direct = direct_light(e, key, block, path.tally);
+  path.radiance += path.throughput * direct;
+  record_scattering(path, bounce, direct, next);
+  if (next.weight == vec3(0.0)) return false;
+  float by_value = survival_by_value(path, e, bounce);
+  path.throughput *= next.weight;
+  path.roulette *= next.roulette;
+  path.origin = ray_origin(e.surface, next.direction.direction);
+  path.direction = next.direction.direction;
+  path.pdf = next.direction.pdf;
+  path.entry = next.direction.entry;
+  path.share = next.direction.share;
+  path.weight = average(next.weight);
+  path.cell = cell_of(e);
+  if (bounce + 1u > parameters.russian_roulette_start) {
+    float survival = by_value > 0.0 ? by_value : survival_by_reflectance(path);
+    if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
+    path.throughput /= survival;
+    path.roulette /= survival;
+    record_survival(bounce, survival);
+  }
+  return true;
+}
+
+Event event_at(inout Path path, Hit hit) {
+  Event e;
+  e.surface = surface_at(hit, path.direction);
+  e.bsdf = bsdf_of(e.surface.material);
+  e.wo = -path.direction;
+  return e;
+}
+
+// For directions, for the target of the last of these, or for lights.
+bool needs_cell(uint bounce) {
+  return LIGHT_ACTIONS > 0 || bounce < parameters.guided_bounces ||
+         (frame_teaches != 0u && bounce == parameters.guided_bounces);
+}
+
+// The event's cell, and whether the table guides from there.
+void find_state(inout Path path, inout Event e, uint bounce) {
+#ifdef HAS_TABLE
+  e.cell = no_cell(e.surface);
+  if (needs_cell(bounce)) {
+    e.cell = find_cell(e.surface);
+    ++path.tally.lookups;
+    if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
+  }
+#endif
+#if SAMPLER == SAMPLER_RL
+  e.is_guided = e.cell.index != NO_CELL && bounce < parameters.guided_bounces;
+  e.bsdf_share = bsdf_share_of(e);
+#endif
+}
+
+Path trace(RandomKey key, vec3 origin, vec3 direction) {
+  Path path;
+  path.origin = origin;
+  path.direction = direction;
+  path.throughput = vec3(1.0);
+  path.roulette = vec3(1.0);
+  path.expected = 0.0;
+  path.radiance = vec3(0.0);
+  path.pdf = 0.0;
+  path.cell = NO_CELL;
+  path.entry = NO_ENTRY;
+  path.share = NO_ENTRY;
+  path.weight = 0.0;
+  path.td_target = -1.0;
+  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
+
+  // With two_ray, the last event's light needs no further ray of the path.
+  uint last_ray = parameters.max_bounces - (NEE == NEE_TWO_RAY && parameters.max_bounces > 0u ? 1u : 0u);
+  uint bounce = 0u;
+  bool going_on = true;
+  do {
+    if (going_on) {
+      ++path.tally.rays;
+      ++path.tally.segments;
+      PreviousAction previous = PreviousAction(path.entry, path.share, path.weight);
+      Hit hit = closest_hit(path.origin, path.direction);
+      if (hit.triangle == NO_TRIANGLE) {
+        leave_scene(path, bounce);
+        going_on = false;
+      } else {
+        Event e = event_at(path, hit);
+        bool scatters = bounce < parameters.max_bounces;
+        BsdfSample next;
+        if (scatters || BOOTSTRAPS_AT_LAST_HIT) {
+          find_state(path, e, bounce);
+          next = bsdf_sample_at(e, key, bounce);
+        }
+        arrive(path, e, next, hit.t, bounce, scatters, key);
+        going_on = scatters && scatter(path, e, next, bounce, key) && bounce < last_ray;
+      }
+      update_after_ray(path, previous);
+      ++bounce;
+    }
+  } while (going_on);
+  loop_was_cut = loop_was_cut || going_on;
+  update_after_path(path);
+  // A throughput that broke without meeting light would pass unnoticed.
+  if (!is_finite(average(path.throughput))) path.radiance = path.throughput;
+  return path;
+}
