@@ -13,7 +13,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <ctime>
+#include <deque>
+#include <optional>
 #include <random>
+#include <utility>
 
 namespace qtrace::gpu {
 namespace {
@@ -48,82 +52,94 @@ Scene room_of_triangles() {
   return scene;
 }
 
+// A way that is measured.
+struct Entry {
+  DriverChoices choices;
+  Program program;
+  double milliseconds = 0;
+};
+
 class Bench {
  public:
   explicit Bench(Context& context)
-      : context_(context), before_(context.device().choices), room_(room_of_triangles()), buffers_(room_, build_bvh(room_, BvhKind::sah)) {}
+      : context_(context),
+        before_(context.device().choices),
+        room_(room_of_triangles()),
+        buffers_(room_, build_bvh(room_, BvhKind::sah)),
+        answers_("answers", std::size_t{kMostGroups} * kGroup * sizeof(std::uint32_t)) {
+    buffers_.bind();
+    answers_.bind_storage(BINDING_OUTPUT);
+  }
   ~Bench() { context_.use(before_); }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  // Medians of the given ways, of which each takes its turn in every round; the first is the usual one. Ways whose
-  // answers differ from its are left out.
-  std::vector<MeasuredWay> measure(const std::vector<DriverChoices>& ways) {
-    std::vector<Entry> entries;
-    for (const DriverChoices& way : ways) {
-      context_.use(way);
-      entries.push_back({way, Program("passes/ray_probe.comp", {}), {}});
-      const std::vector<std::uint32_t> answers = answers_of(entries.back().program);
-      if (truth_.empty()) truth_ = answers;
-      if (answers != truth_) entries.pop_back();
+  // Nothing where its answers differ from those of the first one.
+  std::optional<Entry> compile(const DriverChoices& choices) {
+    context_.use(choices);
+    Entry entry{choices, Program("passes/ray_probe.comp", {})};
+    entry.program.dispatch(kLeastGroups);
+    std::vector<std::uint32_t> answers(std::size_t{kLeastGroups} * kGroup);
+    answers_.read(0, answers.data(), answers.size() * sizeof(std::uint32_t));
+    if (truth_.empty()) {
+      truth_ = answers;
+      find_size(entry.program);
     }
-    find_size(entries.front().program);
+    if (answers != truth_) return std::nullopt;
+    return entry;
+  }
+
+  // Each takes its turn in every round.
+  void measure(const std::vector<Entry*>& entries) {
+    std::vector<std::vector<double>> times(entries.size());
     for (int round = 0; round < kRounds; ++round) {
-      for (Entry& entry : entries) entry.milliseconds.push_back(time_of(entry.program));
+      for (std::size_t i = 0; i < entries.size(); ++i) times[i].push_back(time_of(entries[i]->program));
     }
-    std::vector<MeasuredWay> measured;
-    for (Entry& entry : entries) {
-      std::ranges::sort(entry.milliseconds);
-      measured.push_back({entry.choices, entry.milliseconds[kRounds / 2]});
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      std::ranges::sort(times[i]);
+      entries[i]->milliseconds = times[i][kRounds / 2];
     }
-    return measured;
   }
 
  private:
-  struct Entry {
-    DriverChoices choices;
-    Program program;
-    std::vector<double> milliseconds;
-  };
-
-  std::vector<std::uint32_t> answers_of(const Program& program) {
-    constexpr std::uint32_t kChecked = 1024;
-    buffers_.bind();
-    const Buffer answers("answers", kChecked * sizeof(std::uint32_t));
-    answers.bind_storage(BINDING_OUTPUT);
-    program.dispatch(kChecked / kGroup);
-    return answers.read_all<std::uint32_t>();
+  // A busy machine disturbs processor time less than the clock; a GPU's work is in the latter alone.
+  double now_ms() const {
+    constexpr double kMillisecondsPerSecond = 1000;
+    if (context_.device().software) return kMillisecondsPerSecond * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double, std::milli>(now).count();
   }
 
-  double time_of(const Program& program) {
-    const Buffer answers("answers", std::size_t{groups_} * kGroup * sizeof(std::uint32_t));
-    answers.bind_storage(BINDING_OUTPUT);
+  double time_of(const Program& program) const {
     context_.finish();
-    const auto start = std::chrono::steady_clock::now();
+    const double start = now_ms();
     program.dispatch(groups_);
     context_.finish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return now_ms() - start;
   }
 
   // So many work groups that a dispatch takes milliseconds.
   void find_size(const Program& program) {
-    constexpr double kLeast = 3;  // ms
-    constexpr std::uint32_t kMost = 16384;
-    while (groups_ < kMost && time_of(program) < kLeast) groups_ *= 2;
+    constexpr double kLeast = 4;
+    while (groups_ < kMostGroups && time_of(program) < kLeast) groups_ *= 2;
   }
+
+  static constexpr std::uint32_t kLeastGroups = 16;
+  static constexpr std::uint32_t kMostGroups = 16384;
 
   Context& context_;
   DriverChoices before_;
   Scene room_;
   SceneBuffers buffers_;
+  Buffer answers_;
   std::vector<std::uint32_t> truth_;
-  std::uint32_t groups_ = 64;
+  std::uint32_t groups_ = kLeastGroups;
 };
 
-DriverChoices best_of(const std::vector<MeasuredWay>& ways) {
-  const auto fastest = std::ranges::min_element(ways, {}, &MeasuredWay::milliseconds);
-  const bool is_worthwhile = fastest->milliseconds < kWorthwhile * ways.front().milliseconds;
-  return is_worthwhile ? fastest->choices : ways.front().choices;
+// The first, unless another one is worth it.
+Entry* best_of(const std::vector<Entry*>& entries) {
+  Entry* fastest = *std::ranges::min_element(entries, {}, [](const Entry* e) { return e->milliseconds; });
+  return fastest->milliseconds < kWorthwhile * entries.front()->milliseconds ? fastest : entries.front();
 }
 
 }  // namespace
@@ -132,20 +148,27 @@ DriverMeasurement measure_driver(Context& context) {
   Bench bench(context);
   DriverChoices usual = usual_choices();
   if (!splits_by_place(usual.work_threads)) usual.work_threads = 1;
-  DriverMeasurement result;
-  const auto add = [&](const std::vector<DriverChoices>& ways) {
-    const std::vector<MeasuredWay> measured = bench.measure(ways);
-    result.best = best_of(measured);
-    result.ways.insert(result.ways.end(), measured.begin(), measured.end());
-  };
   std::vector<DriverChoices> ways{usual};
   for (const Fetch fetch : {Fetch::texture, Fetch::image, Fetch::storage}) {
     if (fetch != usual.fetch && offers(fetch)) ways.push_back({fetch, usual.stack, usual.work_threads});
   }
-  add(ways);
-  DriverChoices other = result.best;
+  std::deque<Entry> compiled;  // entries stay where they are
+  std::vector<Entry*> entries;
+  for (const DriverChoices& way : ways) {
+    if (auto entry = bench.compile(way)) entries.push_back(&compiled.emplace_back(std::move(*entry)));
+  }
+  bench.measure(entries);
+  DriverMeasurement result;
+  for (const Entry* entry : entries) result.ways.push_back({entry->choices, entry->milliseconds});
+  Entry* best = best_of(entries);
+  DriverChoices other = best->choices;
   other.stack = other.stack == StackPlace::memory ? StackPlace::registers : StackPlace::memory;
-  add({result.best, other});
+  if (auto entry = bench.compile(other)) {
+    bench.measure({best, &*entry});
+    result.ways.push_back({entry->choices, entry->milliseconds});
+    best = best_of({best, &compiled.emplace_back(std::move(*entry))});
+  }
+  result.best = best->choices;
   return result;
 }
 

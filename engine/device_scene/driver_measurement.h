@@ -12,7 +12,7 @@ namespace qtrace::gpu {
 
 struct MeasuredWay {
   DriverChoices choices;
-  double milliseconds = 0;  // median over interleaved rounds
+  double milliseconds = 0;  // median over interleaved rounds; of a software driver, of processor time
 };
 
 struct DriverMeasurement {

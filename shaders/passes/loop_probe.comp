@@ -13,13 +13,15 @@ layout(std430, binding = BINDING_OUTPUT) restrict buffer TurnBuffer {
 void main() {
   uint turns = 0u;
   uint x = state;
-  for (uint i = 0u; i < outer_turns; ++i) {
-    for (uint j = 0u; j < inner_turns; ++j) {
+  uint i = 0u;
+  do {
+    uint j = 0u;
+    do {
       x = (x ^ (x >> 15)) * 1664525u + j;
       ++turns;
-    }
+    } while (++j < inner_turns);
     ++turns;
-  }
+  } while (++i < outer_turns);
   done = turns;
   state = x;
 }
