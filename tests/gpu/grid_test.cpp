@@ -8,7 +8,7 @@
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
 #include "tests/support/render.h"
-#include "tests/support/paper_table.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -27,7 +27,7 @@ Scene shipped(const std::string& name) {
 
 RenderSettings grid_settings(int resolution) {
   RenderSettings settings;
-  settings.rl = paper_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = kSize;
   settings.rl.cells = CellKind::grid;
   settings.rl.grid_resolution = resolution;

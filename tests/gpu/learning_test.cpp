@@ -2,7 +2,7 @@
 #include "engine/gltf/load_gltf.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/paper_table.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ class GroupOrder : public testing::TestWithParam<UpdateRule> {};
 
 Bits rendered(const Scene& scene, UpdateRule rule, const gpu::Defines& order) {
   RenderSettings settings;
-  settings.rl = paper_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 64;  // 64 work groups
   settings.rl.sites_per_object = 20;
   settings.rl.update = rule;

@@ -3,7 +3,7 @@
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/paper_table.h"
+#include "tests/support/goswami.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 RenderSettings closed_settings(UpdateRule rule) {
   RenderSettings settings;
-  settings.rl = paper_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.max_bounces = 24;  // monte_carlo knows no more than what a path reaches
   settings.russian_roulette_start = 24;

@@ -6,7 +6,7 @@
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/paper_table.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -170,7 +170,7 @@ class Stage {
 
   static RenderSettings make_settings(const Case& c) {
     RenderSettings settings;
-    settings.rl = paper_table();
+    settings.rl = goswami_table();
     settings.width = settings.height = 16;
     settings.sampler = c.sampler;
     settings.rl.bsdf_fraction = c.bsdf_fraction;

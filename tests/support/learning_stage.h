@@ -7,7 +7,7 @@
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
-#include "tests/support/paper_table.h"
+#include "tests/support/goswami.h"
 #include "tests/support/probe.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class LearningStage : public testing::Test {
  protected:
   LearningStage() {
     scene_ = lit_floor(0.8F, 10, 1, 1).scene;
-    settings_.rl = paper_table();
+    settings_.rl = goswami_table();
     settings_.rl.sites_per_object = 4;
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     build();
