@@ -1,6 +1,6 @@
 #include "engine/device_scene/driver_measurement.h"
 
-#include "engine/accel/bvh.h"
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/driver_probe.h"
@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::uint32_t kGroup = 64;  // invocations of a work group of ray_probe.comp
 constexpr int kRounds = 7;
-// A way must be faster by this factor than the usual one to be taken in its place: less is noise, and no gain.
+// A way must be faster by this factor than the usual one to be taken in its place: less is noise, and no
+// gain.
 constexpr double kWorthwhile = 0.93;
 
 // As many triangles as the shipped scenes have, in the unit cube.
@@ -51,13 +52,16 @@ Scene room_of_triangles() {
 class Bench {
  public:
   explicit Bench(Context& context)
-      : context_(context), before_(context.device().choices), room_(room_of_triangles()), buffers_(room_, build_bvh(room_, BvhKind::sah)) {}
+      : context_(context),
+        before_(context.device().choices),
+        room_(room_of_triangles()),
+        buffers_(room_, build_bvh(room_, BvhKind::sah)) {}
   ~Bench() { context_.use(before_); }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  // Medians of the given ways, of which each takes its turn in every round; the first is the usual one. Ways whose
-  // answers differ from its are left out.
+  // Medians of the given ways, of which each takes its turn in every round; the first is the usual one. Ways
+  // whose answers differ from its are left out.
   std::vector<MeasuredWay> measure(const std::vector<DriverChoices>& ways) {
     std::vector<Entry> entries;
     for (const DriverChoices& way : ways) {

@@ -72,7 +72,7 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
-// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at
+// Beside Goswami's NEE, which counts no emission that a path meets, a ray still brings the direct light at
 // its end, and so on: Le / (1 - albedo) - Le.
 TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
@@ -108,7 +108,7 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
   EXPECT_NEAR(mean_target(tracer), 2, 0.05);
 }
 
-// The report's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
+// Goswami's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
 // second, and what lamps send there.
 TEST(MonteCarloRule, CountsTheLightOfThePathsLastEvent) {
   RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
