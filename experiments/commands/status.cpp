@@ -79,7 +79,7 @@ std::string experiment_status(const fs::path& folder) {
   if (!holder.empty()) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (!entry.path().filename().string().starts_with(kProgressFile)) continue;
-      if (const Json state = read_if_there(entry.path()); state.is_object()) text += state_line(state);
+      if (const Json now = read_if_there(entry.path()); now.is_object()) text += state_line(now);
     }
   }
   return text + failures;
