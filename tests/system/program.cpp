@@ -74,7 +74,7 @@ std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::str
   const Capture out, err;
   const pid_t child = start_qtrace(arguments, working, out, err);
   int status = 0;
-  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   bool is_ready = false;
   while (!is_ready && std::chrono::steady_clock::now() < latest) {
     if (::waitpid(child, &status, WNOHANG) == child) return std::nullopt;

@@ -1,7 +1,7 @@
 #include "engine/cells/site_counts.h"
 #include "engine/cells/sites.h"
-#include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
+#include "engine/scene/analytic.h"
 #include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
