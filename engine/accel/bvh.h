@@ -31,7 +31,7 @@ struct Bvh {
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
 
-// The report's (section 4.1): split at the median of the triangles' centres along the longest axis.
+// That of Goswami 2020 (section 4.1): split at the median of the triangles' centres along the longest axis.
 // `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.
 Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size);
 

@@ -6,7 +6,7 @@
 
 namespace qtrace::gpu {
 
-// In the order of the values in shaders/shared/fetch.glsl.
+// With the values in shaders/shared/variants.glsl (engine/tracer/shader_variant.cpp asserts it).
 enum class Fetch { texture, image, storage };
 
 // Of the current context. llvmpipe turns loads of storage into loops over the lanes of a SIMD register, and

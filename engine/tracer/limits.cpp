@@ -2,9 +2,9 @@
 
 #include "engine/cells/site_counts.h"
 #include "engine/core/check.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/driver.h"
-#include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/learning_schedule.h"

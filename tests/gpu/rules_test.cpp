@@ -71,8 +71,8 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
-// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at
-// its end, and so on: Le / (1 - albedo) - Le.
+// Beside the NEE of Goswami 2020, which counts no emission that a path meets, a ray still brings the direct
+// light at its end, and so on: Le / (1 - albedo) - Le.
 TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
   RenderSettings settings = closed_settings(GetParam());
@@ -107,8 +107,8 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
   EXPECT_NEAR(mean_target(tracer), 2, 0.05);
 }
 
-// The report's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
-// second, and what lamps send there.
+// The NEE of Goswami 2020 traces no ray beyond a path's last event: of two, the first learns what is emitted
+// at the second, and what lamps send there.
 TEST(MonteCarloRule, CountsTheLightOfThePathsLastEvent) {
   RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
   settings.nee = Nee::two_ray;
@@ -130,7 +130,10 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   std::vector<glm::dvec2> sums(states.size() * 16, glm::dvec2(0));  // radiance, samples
   constexpr std::uint32_t kRays = 1 << 19;
   const auto found = probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
+      "vec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+       "geometry/traverse.glsl", "sampling/random.glsl"},
+      "",
       radiance +
           ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
           // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.

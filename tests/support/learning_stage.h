@@ -61,7 +61,10 @@ class LearningStage : public testing::Test {
   std::vector<float> next_values_in_view(std::uint32_t count = 1) const {
     std::vector<float> values;
     for (const glm::vec4& v : probe<glm::vec4>(
-             "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
+             "vec4",
+             {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+              "geometry/traverse.glsl", "sampling/random.glsl"},
+             "",
              kViewedSurface +
                  "vec3 rotation = random_units(RandomKey(index, 1u, 5u), 1u).xyz;\n"
                  "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s), vec3(0.5), rotation));",
