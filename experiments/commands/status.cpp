@@ -6,6 +6,8 @@
 #include "experiments/runtime/progress.h"
 #include "experiments/study/results_folder.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
