@@ -153,8 +153,8 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
       KnobInfo{"bins_phi", "bins", "columns of direction bins: along the azimuth, or the other side", 1, 64},
       rl.bins_phi);
   visit(KnobInfo{"initial_table", "",
-                 "values before anything is learned: zero, initial_value, random in [0, initial_value) (the "
-                 "report), or initial_value times the bin's mean cosine"},
+                 "values before anything is learned: zero, initial_value, random in [0, initial_value) "
+                 "(Goswami 2020), or initial_value times the bin's mean cosine"},
         rl.initial_table);
   visit(KnobInfo{"initial_value", "radiance", "scale of an initial table other than zero", 1e-6, 1e6},
         rl.initial_value);

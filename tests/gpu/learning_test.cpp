@@ -70,7 +70,10 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   render(tracer, 64);
   const std::vector<float> values = tracer.table()->values();
   const auto found = probe<glm::uvec4>(
-      "uvec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
+      "uvec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+       "geometry/traverse.glsl"},
+      "",
       kViewedSurface +
           "Cell cell = find_cell(s);\n"
           "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
@@ -97,7 +100,9 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
     settings_.rl.site_search = search;
     gpu::Defines defines = shader_defines(settings_, buffers_->features());
     defines["SEARCHES"] = searches;
-    const std::vector<std::string> files{"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"};
+    const std::vector<std::string> files{"shared/variants.glsl", "learning/cells.glsl",
+                                         "learning/qtable.glsl", "geometry/camera.glsl",
+                                         "geometry/traverse.glsl"};
     return probe<glm::uvec4>("uvec4", files, "", body, 8, defines)[0].y == 1;
   };
   EXPECT_FALSE(is_cut(SiteSearch::linear, "1"));

@@ -131,7 +131,10 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   std::vector<glm::dvec2> sums(states.size() * 16, glm::dvec2(0));  // radiance, samples
   constexpr std::uint32_t kRays = 1 << 19;
   const auto found = probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
+      "vec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+       "geometry/traverse.glsl", "sampling/random.glsl"},
+      "",
       radiance +
           ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
           // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.

@@ -41,7 +41,9 @@ Event the_event() {
   return e;
 }
 )";
-const std::vector<std::string> kIncludes{"shared/variants.glsl", "sampling/random.glsl", "sampling/direction.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"};
+const std::vector<std::string> kIncludes{"shared/variants.glsl",    "sampling/random.glsl",
+                                         "sampling/direction.glsl", "learning/cells.glsl",
+                                         "geometry/camera.glsl",    "geometry/traverse.glsl"};
 
 struct Case {
   std::string name;
