@@ -107,7 +107,8 @@ void write_text(const fs::path& file, const std::string& text) {
 std::vector<std::string> tree(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    names.push_back(fs::relative(entry.path(), folder).string());
+    // By the letters alone: a program at work may have taken the file away again.
+    names.push_back(entry.path().lexically_relative(folder).string());
   }
   std::sort(names.begin(), names.end());
   return names;
