@@ -83,8 +83,8 @@ def _grouped_bars(axes: Axes, rows: pd.DataFrame, group: str, series: str, name:
 
 def _draw_rays(figure: Figure, place: SubplotSpec, rays: pd.DataFrame) -> None:
     scenes = list(dict.fromkeys(rays.scene))
-    for cell, scene in zip(place.subgridspec(1, len(scenes)), scenes):
-        axes = figure.add_subplot(cell)
+    for part, scene in zip(place.subgridspec(1, len(scenes)), scenes):
+        axes = figure.add_subplot(part)
         rows = rays[rays.scene == scene]
         labels = ["" if row.tracer == "Embree" else f"{row.speed_over_embree:.2f}" for row in rows.itertuples()]
         _grouped_bars(axes, rows, "kind", "tracer", "mrays_per_s", labels)
@@ -96,14 +96,14 @@ def _draw_frames(figure: Figure, place: SubplotSpec, frames: pd.DataFrame) -> No
     axes = figure.add_subplot(place)
     _grouped_bars(axes, frames, "scene", "method", "wall_ms", [f"{value:.2f}" for value in frames.over_plain])
     axes.set_ylabel(f"ms per frame\n(above: over BSDF{frames.attrs.get('clock', '')})")
-    axes.set_title(f"The report's table, {frames['size'].iloc[0]}²", loc="left")
+    axes.set_title(f"The table of Goswami 2020, {frames['size'].iloc[0]}²", loc="left")
 
 
 def _draw_steps(figure: Figure, place: SubplotSpec, steps: pd.DataFrame) -> None:
     axes = figure.add_subplot(place)
     parts = steps[steps.step != WHOLE]
-    cells = list(dict.fromkeys(zip(parts.scene, parts.method)))
-    for line, (scene, method) in enumerate(cells):
+    bars = list(dict.fromkeys(zip(parts.scene, parts.method)))
+    for line, (scene, method) in enumerate(bars):
         left = 0.0
         some = parts[(parts.scene == scene) & (parts.method == method)]
         for i, row in enumerate(some.itertuples()):
@@ -113,8 +113,8 @@ def _draw_steps(figure: Figure, place: SubplotSpec, steps: pd.DataFrame) -> None
                 axes.annotate(f"{share:.0f}", (left + share / 2, line), ha="center", va="center", fontsize=7,
                               color="white")
             left += share
-    axes.set_yticks(range(len(cells)), [f"{scene}\n{method}" for scene, method in cells], fontsize=8)
-    axes.set_ylim(len(cells) - 0.5, -0.5)
+    axes.set_yticks(range(len(bars)), [f"{scene}\n{method}" for scene, method in bars], fontsize=8)
+    axes.set_ylim(len(bars) - 0.5, -0.5)
     axes.set_xlabel(f"% of the frame{steps.attrs.get('clock', '')}")
     axes.grid(axis="y", visible=False)
     axes.legend(fontsize=7, ncols=3, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
@@ -127,8 +127,8 @@ def _short(value: float) -> str:
 def _draw_growth(figure: Figure, place: SubplotSpec, growth: pd.DataFrame) -> None:
     names = list(dict.fromkeys(growth.axis))
     looks = style.line_styles(dict.fromkeys(growth.method))
-    for cell, name in zip(place.subgridspec(1, len(names)), names):
-        axes = figure.add_subplot(cell)
+    for part, name in zip(place.subgridspec(1, len(names)), names):
+        axes = figure.add_subplot(part)
         for method, rows in growth[growth.axis == name].groupby("method", sort=False):
             axes.errorbar(rows.value, rows.wall_ms, yerr=_whiskers(rows, "wall_ms"), label=method, **looks[method])
         axes.set_xscale("log")
@@ -150,8 +150,8 @@ def bench_figure(parts: dict[str, pd.DataFrame]) -> Figure:
         grid = figure.add_gridspec(len(rows), 1)
         for place, names in zip(grid, rows):
             there = [name for name in names if name in parts]
-            for cell, name in zip(place.subgridspec(1, len(there)), there):
-                draw[name](figure, cell, parts[name])
+            for part, name in zip(place.subgridspec(1, len(there)), there):
+                draw[name](figure, part, parts[name])
     return figure
 
 

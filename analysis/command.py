@@ -12,6 +12,14 @@ class AnalysisError(Exception):
     """Something about the user's files or arguments; the text is one sentence that names the culprit."""
 
 
+class LoadError(AnalysisError):
+    """Results that are missing, unfinished or unreadable."""
+
+
+class MissingError(LoadError):
+    """What a folder does not hold, and need not: a figure of it cannot be drawn, and nothing is wrong."""
+
+
 def run(main: Callable[[], None]) -> int:
     """The exit code of `main`; an AnalysisError becomes a line on stderr instead of a traceback."""
     try:

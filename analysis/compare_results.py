@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compares two results folders (another device, another version) cell by cell: prints a table and writes a page that
+"""Compares two results folders (another device, another version) configuration by configuration: prints a table and writes a page that
 needs nothing else, compare.html."""
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ if not __package__:  # run as a script: import from the repository, and keep thi
 import jinja2
 
 from analysis import command
-from analysis.comparison import LEVEL, Row, SideBySide, compare, some
+from analysis.comparison import Row, SideBySide, compare, some
 from analysis.load import Results, load
+from analysis.tolerances import LEVEL
 
 TEMPLATE = Path(__file__).with_name("compare_page.html.j2")
-HEADER = ("cell", "figure", "A", "B", "B/A [95 %]", "p", "verdict")
+HEADER = ("configuration", "figure", "A", "B", "B/A [95 %]", "p", "verdict")
 PLOT = {"width": 160, "height": 14}  # pixels, of the page's little plots
 
 
@@ -33,15 +34,15 @@ def _p(row: Row) -> str:
 
 
 def fields(row: Row) -> tuple[str, ...]:
-    return (row.cell, row.figure, f"{row.means[0]:.4g}", f"{row.means[1]:.4g}", _ratio(row), _p(row), row.verdict)
+    return (row.configuration, row.figure, f"{row.means[0]:.4g}", f"{row.means[1]:.4g}", _ratio(row), _p(row), row.verdict)
 
 
 def headline(result: SideBySide) -> str:
-    cells = len(dict.fromkeys(row.cell for row in result.rows))
+    configurations = len(dict.fromkeys(row.configuration for row in result.rows))
     words = {"changed": "changed", "unclear": "unclear", "noise": "noise", "same": "the same in every seed",
              "one seed": "of one seed alone, which has no interval"}
     counts = ", ".join(f"{result.count(verdict)} {text}" for verdict, text in words.items() if result.count(verdict))
-    return f"{len(result.rows)} comparisons in {cells} cells: {counts or 'nothing to compare'}."
+    return f"{len(result.rows)} comparisons in {configurations} configurations: {counts or 'nothing to compare'}."
 
 
 def explanation() -> str:
@@ -54,7 +55,7 @@ def explanation() -> str:
 
 
 def missing(result: SideBySide) -> list[str]:
-    return [f"only in {side}: {'; '.join(cells)}" for side, cells in zip("AB", result.only) if cells]
+    return [f"only in {side}: {'; '.join(names)}" for side, names in zip("AB", result.only) if names]
 
 
 def plain_text(a: Results, b: Results, result: SideBySide) -> str:
@@ -104,7 +105,7 @@ def main(arguments: list[str] | None = None) -> None:
     a, b = load(options.a), load(options.b)
     result = compare(a, b)
     if not result.rows:
-        raise command.AnalysisError(f"{options.a} and {options.b}: share no finished cell that could be compared; the "
+        raise command.AnalysisError(f"{options.a} and {options.b}: share no finished configuration that could be compared; the "
                                     f"first has {some(result.only[0])}, the second {some(result.only[1])}")
     print(plain_text(a, b, result), end="")
     file = (options.out or options.b) / "compare.html"

@@ -1,6 +1,6 @@
 """Two results folders side by side: what changed, by how much, and what is noise.
 
-Each figure of each cell is compared by Welch's test on the logarithms of the two means (ratios.py). Many comparisons
+Each figure of each configuration is compared by Welch's test on the logarithms of the two means (welch.py). Many comparisons
 are made at once, so that by chance alone one in twenty would look like a change: p is corrected over all of them
 (Benjamini and Hochberg 1995, Controlling the false discovery rate), so that of what is called changed 5 % or less are
 expected to be none. Runs with the same seed share random numbers on both sides, which can only make the intervals too
@@ -14,20 +14,22 @@ from typing import Any, Iterable
 
 import pandas as pd
 
+from analysis.command import MissingError
 from analysis.load import Results
-from analysis.ratios import Comparison, ratio_of_means
+from analysis.metrics import errors
+from analysis.tolerances import LEVEL
+from analysis.welch import Comparison, ratio_of_means
 
-LEVEL = 0.05
 # Of the summary: the whole run's frames. Of the snapshots: the last that both sides have.
 TIMES = {"host_ms_median": "ms/frame (host)", "gpu_ms_median": "ms/frame (GL)"}
-ERRORS = {"mse": "MSE", "relmse": "relMSE", "relmse_trimmed": "relMSE, trimmed", "mape": "MAPE",
-          "relmse_x_s": "relMSE × s"}
+PRODUCT = {"relmse_x_s": "relMSE × s"}
+NOTHING = pd.DataFrame({"run": [], "frame": []})  # of a configuration without a snapshot
 
 
 @dataclass(frozen=True)
 class Row:
     scene: str
-    cell: str
+    configuration: str
     figure: str
     seeds: tuple[int, int]
     means: tuple[float, float]
@@ -50,7 +52,7 @@ class Row:
 @dataclass(frozen=True)
 class SideBySide:
     rows: list[Row]
-    only: tuple[list[str], list[str]]  # cells of one side alone
+    only: tuple[list[str], list[str]]  # configurations of one side alone
     facts: list[tuple[str, str, str]]  # what else differs: name, here, there
     warnings: list[str]
 
@@ -69,16 +71,30 @@ def false_discovery(values: Iterable[float]) -> list[float]:
     return p
 
 
-def _values(results: Results, cell: str, frame: int) -> pd.DataFrame:
+def _figures(a: Results, b: Results) -> dict[str, str]:
+    """Columns that both sides may have, and what they are called here."""
+    metrics = {metric.name: metric.label for metric in errors((b.metrics | a.metrics).values())}
+    return TIMES | metrics | PRODUCT
+
+
+def _snapshots(results: Results) -> pd.DataFrame:
+    """A row per snapshot; where the files of single runs are gone, the summary's row of each run for its last one."""
+    try:
+        return results.convergence
+    except MissingError:
+        return results.finished.assign(frame=results.finished.frames)
+
+
+def _values(results: Results, snapshots: pd.DataFrame, frame: int) -> pd.DataFrame:
     """A row per seed: times of its frames, errors of that snapshot."""
-    snapshots = results.convergence[(results.convergence.cell == cell) & (results.convergence.frame == frame)]
+    snapshots = snapshots[snapshots.frame == frame]
     snapshots = snapshots.assign(relmse_x_s=snapshots.relmse * snapshots.elapsed_s)
     runs = results.finished.set_index("run")
     times = {name: [runs[name][run] for run in snapshots.run] for name in TIMES if name in runs}
     return snapshots.assign(**times).set_index("seed")
 
 
-def _compare(name: str, heading: str, scene: str, cell: str, a: pd.DataFrame, b: pd.DataFrame) -> Row | None:
+def _compare(name: str, heading: str, scene: str, configuration: str, a: pd.DataFrame, b: pd.DataFrame) -> Row | None:
     """None where one side has not measured it or has a mean of zero."""
     if name not in a or name not in b or a[name].isna().any() or b[name].isna().any():
         return None
@@ -86,18 +102,19 @@ def _compare(name: str, heading: str, scene: str, cell: str, a: pd.DataFrame, b:
     if comparison is None:
         return None
     same = a[name].sort_index().equals(b[name].sort_index())
-    return Row(scene, cell, heading, (len(a), len(b)), (a[name].mean(), b[name].mean()), comparison, same,
+    return Row(scene, configuration, heading, (len(a), len(b)), (a[name].mean(), b[name].mean()), comparison, same,
                math.nan if same else comparison.p)
 
 
-def _cells(results: Results) -> dict[str, str]:
-    """Finished ones and their scenes."""
-    return dict(zip(results.finished.cell, results.finished.scene))
+def _scenes(results: Results) -> dict[str, str]:
+    """By configuration, of the finished ones."""
+    return dict(zip(results.finished.configuration, results.finished.scene))
 
 
-def _frames(results: Results, cell: str) -> set[int]:
-    convergence = results.convergence[results.convergence.cell == cell]
-    return set.intersection(*(set(run.frame) for _, run in convergence.groupby("run")))
+def _frames(snapshots: pd.DataFrame) -> set[int]:
+    """Those that all runs have."""
+    frames = [set(run.frame) for _, run in snapshots.groupby("run")]
+    return set.intersection(*frames) if frames else set()
 
 
 def _leaves(value: Any, path: str = "") -> dict[str, str]:
@@ -120,33 +137,39 @@ def _facts(a: Results, b: Results) -> list[tuple[str, str, str]]:
             for name in dict.fromkeys([*sides[0], *sides[1]]) if sides[0].get(name) != sides[1].get(name)]
 
 
-def _references(results: Results, cell: str) -> set[str]:
-    return set(results.finished[results.finished.cell == cell].get("reference_hash", []))
+def _references(results: Results, configuration: str) -> set[str]:
+    return set(results.finished[results.finished.configuration == configuration].get("reference_hash", []))
 
 
 def some(names: list[str], most: int = 3) -> str:
     return "; ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
+def _by_configuration(results: Results) -> dict[str, pd.DataFrame]:
+    return dict(iter(_snapshots(results).groupby("configuration", sort=False)))
+
+
 def compare(a: Results, b: Results) -> SideBySide:
-    cells_a, cells_b = _cells(a), _cells(b)
+    scenes_a, scenes_b = _scenes(a), _scenes(b)
+    sides = [_by_configuration(results) for results in (a, b)]
     rows: list[Row] = []
-    notes: dict[str, list[str]] = {}  # cells by what is to be said of them
-    for cell, scene in cells_a.items():
-        if cell not in cells_b:
+    notes: dict[str, list[str]] = {}  # configurations by what is to be said of them
+    for name, scene in scenes_a.items():
+        if name not in scenes_b:
             continue
-        shared = _frames(a, cell) & _frames(b, cell)
+        here, there = (side.get(name, NOTHING) for side in sides)
+        shared = _frames(here) & _frames(there)
         if not shared:
-            notes.setdefault("the two sides share no snapshot, so nothing is compared", []).append(cell)
+            notes.setdefault("the two sides share no snapshot, so nothing is compared", []).append(name)
             continue
         frame = max(shared)
-        if frame < max(_frames(a, cell) | _frames(b, cell)):
-            notes.setdefault(f"the runs differ in length; errors are those after frame {frame}", []).append(cell)
-        if _references(a, cell) != _references(b, cell):
-            notes.setdefault("the references differ, and a part of a change in error may be theirs", []).append(cell)
-        sides = (_values(a, cell, frame), _values(b, cell, frame))
-        compared = (_compare(name, heading, scene, cell, *sides) for name, heading in (TIMES | ERRORS).items())
+        if frame < max(_frames(here) | _frames(there)):
+            notes.setdefault(f"the runs differ in length; errors are those after frame {frame}", []).append(name)
+        if _references(a, name) != _references(b, name):
+            notes.setdefault("the references differ, and a part of a change in error may be theirs", []).append(name)
+        values = (_values(a, here, frame), _values(b, there, frame))
+        compared = (_compare(figure, heading, scene, name, *values) for figure, heading in _figures(a, b).items())
         rows += filter(None, compared)
     corrected = [replace(row, p=p) for row, p in zip(rows, false_discovery(row.p for row in rows))]
-    only = ([cell for cell in cells_a if cell not in cells_b], [cell for cell in cells_b if cell not in cells_a])
-    return SideBySide(corrected, only, _facts(a, b), [f"{note}: {some(cells)}" for note, cells in notes.items()])
+    only = ([name for name in scenes_a if name not in scenes_b], [name for name in scenes_b if name not in scenes_a])
+    return SideBySide(corrected, only, _facts(a, b), [f"{note}: {some(names)}" for note, names in notes.items()])

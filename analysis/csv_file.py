@@ -1,22 +1,19 @@
-"""Reads one CSV file of a run, strictly: a short row or a word among numbers is an error, never a NaN."""
+"""Reads one CSV file of results, strictly: a short row or a word among numbers is an error, never a NaN."""
 
 from __future__ import annotations
 
 import csv
 from pathlib import Path
-from typing import Iterable
+from types import MappingProxyType
+from typing import Iterable, Mapping
 
 import pandas as pd
 
-from analysis.command import AnalysisError
+from analysis.command import LoadError, MissingError
 
-TEXT = {"run", "cell", "scene", "status", "reason", "verdict", "verdict_reason", "started", "baseline",
+TEXT = {"run", "configuration", "scene", "status", "reason", "verdict", "verdict_reason", "started", "baseline",
         "reference_hash", "config_hash"}
 BOOLEAN = {"is_warmup", "at_reference_floor"}
-
-
-class LoadError(AnalysisError):
-    """Results that are missing, unfinished or unreadable."""
 
 
 def _is_text(name: str) -> bool:
@@ -39,18 +36,21 @@ def _column(name: str, fields: list[str], file: Path, labels: Iterable[str]) -> 
     return pd.Series(values, dtype=None if values else float)
 
 
-def read_csv(file: Path, needed: Iterable[str], labels: Iterable[str] = ()) -> pd.DataFrame:
-    """All columns: labels (those given, too) as text, numbers with every digit. Empty numbers are NaN."""
+def read_csv(file: Path, needed: Iterable[str], labels: Iterable[str] = (),
+             renamed: Mapping[str, str] = MappingProxyType({})) -> pd.DataFrame:
+    """All columns: labels (those given, too) as text, numbers with every digit. Empty numbers are NaN. `renamed`: the
+    names that are wanted, by those of the file."""
     try:
         with file.open(encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(stream, strict=True))
     except FileNotFoundError as error:
-        raise LoadError(f"{file}: no such file") from error
+        raise MissingError(f"{file}: no such file") from error
     except (OSError, ValueError, csv.Error) as error:
         raise LoadError(f"{file}: cannot be read as CSV: {error}") from error
     if not rows:
         raise LoadError(f"{file}: is empty")
     header, *body = rows
+    header = [renamed.get(name, name) for name in header]
     missing = [name for name in needed if name not in header]
     if missing:
         raise LoadError(f"{file}: has no column '{missing[0]}'")

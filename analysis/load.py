@@ -2,7 +2,9 @@
 
     from analysis.load import load
     results = load("results/convergence")
-    results.convergence.groupby(["cell", "spp"]).relmse.mean()
+    results.convergence.groupby(["configuration", "spp"]).relmse.mean()
+
+The files of single runs are read when they are asked for: published results are kept without them.
 """
 
 from __future__ import annotations
@@ -16,21 +18,20 @@ from typing import Any
 
 import pandas as pd
 
-from analysis.csv_file import LoadError, read_csv
-from analysis.ratios import cells_of
+from analysis import schema
+from analysis.command import LoadError, MissingError
+from analysis.csv_file import read_csv
+from analysis.metrics import Metric, metrics_of
 
-__all__ = ["LoadError", "Results", "load", "read_manifest"]
+__all__ = ["LoadError", "MissingError", "Results", "load", "read_manifest"]
 
-# Of the manifest's "schema": the newest that is understood. 0 are results from before it was written; they may lack
-# cells.csv, ratios.csv and whichever columns are newer than those named below.
-SCHEMA = 1
 METRICS = ["mse", "relmse", "relmse_trimmed", "mape"]
-SUMMARY_COLUMNS = ["run", "cell", "scene", "seed", "status", "frames"]
+SUMMARY_COLUMNS = ["run", "configuration", "scene", "seed", "status", "frames"]
 CONVERGENCE_COLUMNS = ["frame", "spp", "elapsed_s", *METRICS, "reference_mse", "reference_relmse",
                        "at_reference_floor"]
 FRAMES_COLUMNS = ["frame", "is_warmup", "host_ms", "gpu_ms"]
-CELLS_COLUMNS = ["cell", "scene", "seeds"]
-RATIOS_COLUMNS = ["cell", "baseline"]
+CONFIGURATIONS_COLUMNS = ["configuration", "scene", "seeds"]
+RATIOS_COLUMNS = ["configuration", "baseline"]
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,6 @@ class Results:
     folder: Path
     experiment: dict[str, Any]  # manifest.json of the experiment
     summary: pd.DataFrame
-    convergence: pd.DataFrame  # a row per run and snapshot
 
     @property
     def name(self) -> str:
@@ -48,7 +48,7 @@ class Results:
 
     @property
     def schema(self) -> int:
-        return int(self.experiment.get("schema", 0))
+        return schema.schema_of(self.folder, self.experiment)
 
     @property
     def finished(self) -> pd.DataFrame:
@@ -59,34 +59,63 @@ class Results:
         return len(self.experiment.get("runs", self.summary))
 
     @cached_property
-    def frames(self) -> pd.DataFrame:
-        """A row per run and frame; read on first use, as it is by far the largest."""
-        return _stack(self.folder, self.finished, "frames.csv", FRAMES_COLUMNS)
+    def metrics(self) -> dict[str, Metric]:
+        """What the errors are called, by the names of their columns."""
+        return metrics_of(self.experiment)
 
     @cached_property
-    def cells(self) -> pd.DataFrame:
-        """A row per cell: mean, standard deviation and 95 % interval over its seeds, as the program has them."""
-        file = self.folder / "cells.csv"
-        # Results of schema 0 may be older than that file.
-        is_old = self.schema == 0 and not file.is_file()
-        cells = cells_of(self.summary) if is_old else read_csv(file, CELLS_COLUMNS)
-        cells.insert(1, "label", labels_of(cells))
-        return cells
+    def convergence(self) -> pd.DataFrame:
+        """A row per run and snapshot; read on first use. MissingError where the folder is kept without its runs' files."""
+        return self._stack("convergence.csv", CONVERGENCE_COLUMNS)
+
+    @cached_property
+    def frames(self) -> pd.DataFrame:
+        """A row per run and frame; read on first use, as it is by far the largest."""
+        return self._stack("frames.csv", FRAMES_COLUMNS)
+
+    @cached_property
+    def configurations(self) -> pd.DataFrame:
+        """A row per configuration: mean, standard deviation and 95 % interval over its seeds, as the program has them."""
+        table = self._read("configurations.csv", CONFIGURATIONS_COLUMNS)
+        table.insert(1, "label", labels_of(table))
+        return table
 
     @property
     def has_ratios(self) -> bool:
-        return (self.folder / "ratios.csv").is_file()
+        return schema.file_of(self.folder, self.schema, "ratios.csv").is_file()
 
     @cached_property
     def ratios(self) -> pd.DataFrame:
-        """A row per cell and figure: how it compares with the config's baseline. LoadError if that names none."""
+        """A row per configuration and figure: how it compares with the config's baseline. MissingError if that names
+        none."""
         if not self.has_ratios:
-            raise LoadError(f"{self.folder}: has no ratios.csv: its config names no baseline, see `qtrace keys`")
-        ratios = read_csv(self.folder / "ratios.csv", RATIOS_COLUMNS)
-        labels = dict(zip(self.summary.cell, self.summary.label))
-        ratios.insert(1, "label", ratios.cell.map(labels))
+            raise MissingError(f"{self.folder}: has no ratios.csv: its config names no baseline, see `qtrace keys`")
+        ratios = self._read("ratios.csv", RATIOS_COLUMNS)
+        labels = dict(zip(self.summary.configuration, self.summary.label))
+        ratios.insert(1, "label", ratios.configuration.map(labels))
         ratios.insert(3, "baseline_label", ratios.baseline.map(labels))
         return ratios
+
+    def _read(self, name: str, needed: list[str]) -> pd.DataFrame:
+        file = schema.file_of(self.folder, self.schema, name)
+        return read_csv(file, needed, renamed=schema.columns_of(self.schema))
+
+    def _stack(self, name: str, needed: list[str]) -> pd.DataFrame:
+        """One file of each finished run below the other, each row with the run's id, configuration, axes, scene and
+        seed."""
+        runs = self.finished
+        if runs.empty:
+            raise LoadError(f"{self.folder}: none of its {len(self.summary)} runs is finished")
+        if not any((self.folder / run / name).is_file() for run in runs.run):
+            raise MissingError(f"{self.folder}: no run's {name} is here; this folder was kept without the files of its runs")
+        keys = ["run", "configuration", "label", *axis_columns(runs), "scene", "seed"]
+        parts = []
+        for _, run in runs.iterrows():
+            part = read_csv(self.folder / run["run"] / name, needed, renamed=schema.columns_of(self.schema))
+            for position, key in enumerate(keys):
+                part.insert(position, key, run[key])
+            parts.append(part)
+        return pd.concat(parts, ignore_index=True)
 
 
 def axis_columns(summary: pd.DataFrame) -> list[str]:
@@ -104,7 +133,7 @@ def _part(axis: str, label: str) -> str:
 
 
 def labels_of(summary: pd.DataFrame) -> list[str]:
-    """The cell without its scene: what tells the curves of one panel apart."""
+    """The configuration without its scene: what tells the curves of one panel apart."""
     axes = [a for a in axis_columns(summary) if a not in ("axis:scene", "axis:seed")]
     if not axes:
         return ["all"] * len(summary)
@@ -112,49 +141,36 @@ def labels_of(summary: pd.DataFrame) -> list[str]:
     return [" / ".join(_part(a.removeprefix("axis:"), value) for a, value in zip(axes, row)) for row in rows]
 
 
-def _stack(folder: Path, runs: pd.DataFrame, name: str, needed: list[str]) -> pd.DataFrame:
-    """One file of each run below the other, each row with the run's id, cell, axes, scene and seed."""
-    keys = ["run", "cell", "label", *axis_columns(runs), "scene", "seed"]
-    parts = []
-    for _, run in runs.iterrows():
-        part = read_csv(folder / run["run"] / name, needed)
-        for position, key in enumerate(keys):
-            part.insert(position, key, run[key])
-        parts.append(part)
-    return pd.concat(parts, ignore_index=True)
-
-
 def read_manifest(file: Path) -> dict[str, Any]:
+    """Of an experiment or a run, with the keys of today."""
     try:
         manifest = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise MissingError(f"{file}: no such file") from error
     except (OSError, ValueError) as error:
         raise LoadError(f"{file}: cannot be read as JSON: {error}") from error
     if not isinstance(manifest, dict):
         raise LoadError(f"{file}: must hold a JSON object")
-    return manifest
+    return schema.keys_of_today(manifest)
 
 
-def check_schema(folder: Path, manifest: dict[str, Any]) -> None:
-    schema = manifest.get("schema", 0)
-    if not isinstance(schema, int) or schema < 0:
-        raise LoadError(f"{folder / 'manifest.json'}: schema is {schema!r} but must be a whole number")
-    if schema > SCHEMA:
-        raise LoadError(f"{folder}: has schema {schema}, but this analysis reads {SCHEMA} and older: use the analysis "
-                        "of the qtrace that wrote it")
-
-
-def load(results: str | os.PathLike[str]) -> Results:
-    """Reads results/<experiment>. Raises LoadError: no such folder, no finished run, an unreadable file."""
-    folder = Path(results)
+def read_experiment(folder: Path) -> dict[str, Any]:
+    """The manifest of an experiment's folder. Raises LoadError where there is none that can be read here."""
     if not folder.is_dir():
         raise LoadError(f"{folder}: no such folder; the folder of an experiment is needed, like results/convergence")
     if not (folder / "summary.csv").is_file():
         raise LoadError(f"{folder}: has no summary.csv, so it is not the folder of an experiment")
-    experiment = read_manifest(folder / "manifest.json")
-    check_schema(folder, experiment)
-    summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS)
+    manifest = read_manifest(folder / "manifest.json")
+    schema.schema_of(folder, manifest)
+    return manifest
+
+
+def load(results: str | os.PathLike[str]) -> Results:
+    """Reads results/<experiment>. Raises LoadError: no such folder, an unreadable file. What single runs have left is read
+    later, when it is asked for."""
+    folder = Path(results)
+    experiment = read_experiment(folder)
+    renamed = schema.columns_of(schema.schema_of(folder, experiment))
+    summary = read_csv(folder / "summary.csv", SUMMARY_COLUMNS, renamed=renamed)
     summary.insert(2, "label", labels_of(summary))
-    finished = summary[summary.status == "finished"]
-    if finished.empty:
-        raise LoadError(f"{folder}: none of its {len(summary)} runs is finished")
-    return Results(folder, experiment, summary, _stack(folder, finished, "convergence.csv", CONVERGENCE_COLUMNS))
+    return Results(folder, experiment, summary)

@@ -17,6 +17,10 @@ MARKERS = ["o", "s", "^", "D", "v", "<", ">", "p", "P", "X", "h"]
 DASHES = ["-", (0, (6, 2)), (0, (4, 1.5, 1, 1.5)), (0, (1, 1.5))]
 FLOOR = {"color": "0.35", "linestyle": (0, (2, 2)), "linewidth": 1.0}
 
+# Of logarithmic axes, here and on the report page.
+FLOOR_REACH = 100  # a floor this much below all curves is named rather than drawn, to leave them room
+BAND_REACH = 4     # bands may widen the axis by this factor; few seeds can give bands of many decades
+
 RC = {
     "font.size": 10,
     "axes.titlesize": 11,
@@ -60,14 +64,31 @@ class Look:
     rc: dict[str, Any]
     width: float       # inches
     row_height: float  # of a row of panels
-    line_height: float  # of one cell's line where cells are listed
+    line_height: float  # of one line where configurations are listed
     note_size: float
     words: bool        # title and caption inside the figure: a paper sets its own
 
 
 SCREEN = Look(RC, 11.0, 3.7, 0.3, 8.5, True)
+NARROW = Look(RC, 7.5, 3.7, 0.3, 8.5, True)  # for one panel
 COLUMN = Look(PRINT_RC, 3.33, 2.1, 0.145, 7, False)  # of two, as ACM's and IEEE's papers have
 PAGE = Look(PRINT_RC, 7.0, 2.1, 0.145, 7, False)     # both columns
+
+
+@dataclass(frozen=True)
+class Medium:
+    """What figures are made for: the look of those that take the whole width, and of those that a column can hold."""
+
+    page: Look
+    column: Look
+
+    @property
+    def is_print(self) -> bool:
+        return not self.page.words
+
+
+ON_SCREEN = Medium(SCREEN, NARROW)
+IN_PRINT = Medium(PAGE, COLUMN)
 
 
 def line_styles(labels: Iterable[str]) -> dict[str, dict[str, Any]]:

@@ -1,1 +1,1 @@
-"""One page about one results folder: what went wrong, the table, the curves, the images, and where it all is from."""
+"""The report page: one page about one results folder: what went wrong, the table, the curves, the images, and where it all is from."""

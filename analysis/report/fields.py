@@ -9,8 +9,6 @@ from typing import Callable
 from analysis.report import number
 from analysis.report.sweep import Row
 
-STRIPS = ("host ms/frame", "relMSE", "relMSE × s")  # columns that are drawn besides
-
 
 @dataclass(frozen=True)
 class Field:
@@ -37,6 +35,7 @@ class Column:
     name: str
     help: str
     numeric: bool = True
+    strip: bool = False  # drawn on a scale besides
 
 
 @dataclass(frozen=True)
@@ -58,7 +57,7 @@ class Table:
     def scales(self) -> dict[str, Callable[[Field], Span | None]]:
         """By column, for those that are drawn as strips."""
         return {column.name: _scale([fields[i] for _, fields in self.rows])
-                for i, column in enumerate(self.columns) if column.name in STRIPS}
+                for i, column in enumerate(self.columns) if column.strip}
 
 
 def _scale(fields: list[Field]) -> Callable[[Field], Span | None]:

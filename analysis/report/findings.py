@@ -41,7 +41,7 @@ def _unfinished(sweep: Sweep) -> Iterator[Finding]:
     partial = [row for row in sweep.summary if row["status"] == "partial"]
     if partial:
         yield Finding("failed", f"{_of(len(partial), len(planned))} stopped on the way. What they have is shown where no "
-                      "seed of their cell is finished; the same command goes on from there.",
+                      "seed of their configuration is finished; the same command goes on from there.",
                       [f"{row['run']}: {row['frames']} frames" + (f"; {row['reason']}" if row["reason"] else "")
                        for row in partial])
     missing = [str(run.get("run")) for run in planned if str(run.get("run")) not in status]
@@ -87,31 +87,31 @@ def _samples(sweep: Sweep) -> Iterator[Finding]:
 
 
 def _floor(sweep: Sweep) -> Iterator[Finding]:
-    rows = [cell for cell in sweep.cells if cell.get("seeds_at_reference_floor") not in (None, "", "0")]
+    rows = [row for row in sweep.configurations if row.get("seeds_at_reference_floor") not in (None, "", "0")]
     if rows:
-        yield Finding("flagged", f"{_many(len(rows), 'row')} of {len(sweep.cells)} end at the reference's noise: there the "
+        yield Finding("flagged", f"{_many(len(rows), 'row')} of {len(sweep.configurations)} end at the reference's noise: there the "
                       "error is the reference's as much as the sampler's. A longer reference would tell.",
-                      [f"{cell['cell']}: {cell['seeds_at_reference_floor']} of {_many(int(cell['seeds']), 'seed')}"
-                       for cell in rows])
+                      [f"{row['configuration']}: {row['seeds_at_reference_floor']} of {_many(int(row['seeds']), 'seed')}"
+                       for row in rows])
 
 
 SLOPE_CAUSES = {"steep": "steeper than −1: still learning, or rare bright samples came early",
                 "flat": "flatter than −1: biased, heavy-tailed, or near the reference's noise"}
 
 
-def _slope(cell: Row, name: str) -> str:
-    mean, low, high = (number.short(text) for text in number.estimate(cell, name))
-    metric = {"slope_mse": "MSE", "slope_relmse": "relMSE"}[name]
-    return f"{cell['cell']}: {metric} {mean} [{low}, {high}], {SLOPE_CAUSES[slope_is_off(cell, name)]}"
+def _slope(row: Row, name: str, label: str) -> str:
+    mean, low, high = (number.short(text) for text in number.estimate(row, name))
+    return f"{row['configuration']}: {label} {mean} [{low}, {high}], {SLOPE_CAUSES[slope_is_off(row, name)]}"
 
 
 def _slopes(sweep: Sweep) -> Iterator[Finding]:
-    details = [_slope(cell, name) for cell in sweep.cells for name in ("slope_mse", "slope_relmse")
-               if slope_is_off(cell, name)]
-    if details:
-        rows = sum(any(slope_is_off(cell, name) for name in ("slope_mse", "slope_relmse")) for cell in sweep.cells)
-        yield Finding("flagged", f"{_many(rows, 'row')} of {len(sweep.cells)} {'has' if rows == 1 else 'have'} errors that "
-                      "do not fall as 1/spp (log-log slope, 95 % interval).", details)
+    names = {f"slope_{metric.name}": metric.label for metric in sweep.metrics.values()}
+    off = [(row, name) for row in sweep.configurations for name in names if slope_is_off(row, name)]
+    if off:
+        rows = len({row["configuration"] for row, _ in off})
+        yield Finding("flagged", f"{_many(rows, 'row')} of {len(sweep.configurations)} {'has' if rows == 1 else 'have'} errors "
+                      "that do not fall as 1/spp (log-log slope, 95 % interval).",
+                      [_slope(row, name, names[name]) for row, name in off])
 
 
 def _times(sweep: Sweep) -> Iterator[Finding]:
@@ -119,7 +119,7 @@ def _times(sweep: Sweep) -> Iterator[Finding]:
     noisy = [row for row in judged if row["noisy"] == "1"]
     if noisy:
         yield Finding("flagged", f"The machine was noisy in {_of(len(noisy), len(judged))}: frame times per ray spread by "
-                      "more than 10 % or had more than 10 % outliers. Rather read ratios, as cells took turns.",
+                      "more than 10 % or had more than 10 % outliers. Rather read ratios, as configurations took turns.",
                       [row["run"] for row in noisy])
     late = []
     for row in sweep.summary:

@@ -1,4 +1,4 @@
-"""Pictures of cells and learned hemispheres that `./dev inspect` has left in folders of runs."""
+"""Pictures of Voronoi cells and learned hemispheres that `./dev inspect` has left in folders of runs."""
 
 from __future__ import annotations
 

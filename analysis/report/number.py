@@ -23,5 +23,5 @@ def short(text: str) -> str:
 
 
 def estimate(row: dict[str, str], figure: str) -> tuple[str, str, str]:
-    """Of a row of cells.csv or ratios.csv: mean, low and high as they stand there."""
+    """Of a row of configurations.csv or ratios.csv: mean, low and high as they stand there."""
     return row.get(figure, ""), row.get(f"{figure}_low", ""), row.get(f"{figure}_high", "")

@@ -12,8 +12,7 @@ import jinja2
 import matplotlib
 from markupsafe import Markup
 
-from analysis import style
-from analysis.convergence_figure import METRICS
+from analysis import schema, style, tolerances
 from analysis.report import curves, findings, learned, number, pictures, provenance, table
 from analysis.report.pictures import Gallery
 from analysis.report.sweep import Row, Sweep
@@ -64,33 +63,34 @@ def _image_note(found: list[Gallery]) -> str:
     return note + (f" {clipped} values beyond 65504, the largest half float, are cut to it." if clipped else "")
 
 
-# Of cells.csv, for the plot of speed against error.
-SPEED_AXES = {"x": {"elapsed_s": "seconds, learning included", "host_ms_median": "host ms/frame", "gpu_ms_median": "GPU ms/frame"},
-              "y": {metric: label for metric, label in curves.metric_names(list(METRICS)).items()}}
+# Of configurations.csv, for the plot of speed against error.
+TIMES = {"elapsed_s": "seconds, learning included", "host_ms_median": "host ms/frame", "gpu_ms_median": "GPU ms/frame"}
 
 
-def _cell_data(cell: Row, figures: list[str]) -> dict[str, Any]:
-    return {"cell": cell["cell"], "scene": cell["scene"], "label": cell["label"],
-            "floor": int(cell.get("seeds_at_reference_floor") not in (None, "", "0")),
-            "figures": {name: number.estimate(cell, name) for name in figures if cell.get(name)}}
+def _configuration_data(row: Row, figures: list[str]) -> dict[str, Any]:
+    return {"configuration": row["configuration"], "scene": row["scene"], "label": row["label"],
+            "floor": int(row.get("seeds_at_reference_floor") not in (None, "", "0")),
+            "figures": {name: number.estimate(row, name) for name in figures if row.get(name)}}
 
 
 def _data(sweep: Sweep, found: list[Gallery]) -> dict[str, Any]:
     """What the page's programs read."""
     points = curves.curves(sweep)
-    labels = list(dict.fromkeys(cell["label"] for cell in sweep.cells))
-    axes = {axis: {key: {"name": name} for key, name in names.items() if any(cell.get(key) for cell in sweep.cells)}
-            for axis, names in SPEED_AXES.items()}
+    labels = list(dict.fromkeys(row["label"] for row in sweep.configurations))
+    metrics = curves.metric_names(sweep)
+    axes = {axis: {key: {"name": name} for key, name in names.items() if any(row.get(key) for row in sweep.configurations)}
+            for axis, names in (("x", TIMES), ("y", metrics))}
     return {"scenes": sweep.scenes, "labels": labels, "figures": axes,
-            "cells": [_cell_data(cell, [*axes["x"], *axes["y"]]) for cell in sweep.cells],
-            "metrics": curves.metric_names(list(points)), "curves": points, "floors": curves.floors(sweep),
-            "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma()}
+            "configurations": [_configuration_data(row, [*axes["x"], *axes["y"]]) for row in sweep.configurations],
+            "metrics": {name: metrics[name] for name in points}, "curves": points, "floors": curves.floors(sweep),
+            "galleries": [pictures.gallery_data(gallery) for gallery in found], "magma": _magma(),
+            "reach": {"band": style.BAND_REACH, "floor": style.FLOOR_REACH}}
 
 
 def _lead(sweep: Sweep) -> str:
     device = (sweep.manifest.get("device") or {}).get("renderer", "unknown device")
     finished = sum(row["status"] == "finished" for row in sweep.summary)
-    text = f"{finished} of {len(sweep.planned)} runs finished, {len(sweep.cells)} cells, on {device}"
+    text = f"{finished} of {len(sweep.planned)} runs finished, {len(sweep.configurations)} configurations, on {device}"
     status = sweep.manifest.get("status", "finished")
     text += f"; status {status}" if status != "finished" else ""
     ended = sweep.manifest.get("ended")
@@ -98,19 +98,20 @@ def _lead(sweep: Sweep) -> str:
 
 
 def _published_ratios(sweep: Sweep) -> list[str]:
-    """What table.md says of the publication's ratios, word by word."""
+    """What summary.md says of the publication's ratios, word by word."""
     try:
-        lines = (sweep.folder / "table.md").read_text(encoding="utf-8").splitlines()
+        file = schema.file_of(sweep.folder, schema.schema_of(sweep.folder, sweep.manifest), "summary.md")
+        lines = file.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError):
         return []
     return [line[2:] for line in lines if re.match(r"- .+ over .+: .+ × the host time per frame", line)]
 
 
-def _sections(has_cells: bool, has_images: bool, has_learned: bool) -> dict[str, str]:
+def _sections(has_rows: bool, has_images: bool, has_learned: bool) -> dict[str, str]:
     """Titles by id, in the order of the page."""
-    titles = {"findings": ("What to know first", True), "table": ("Time and error", has_cells),
-              "curves": ("Convergence", has_cells), "speed": ("Speed against error", has_cells),
-              "images": ("Images", has_images), "paths": ("Path statistics", has_cells),
+    titles = {"findings": ("What to know first", True), "table": ("Time and error", has_rows),
+              "curves": ("Convergence", has_rows), "speed": ("Speed against error", has_rows),
+              "images": ("Images", has_images), "paths": ("Path statistics", has_rows),
               "learned": ("Cells and hemispheres", has_learned), "runs": ("All runs", True), "provenance": ("Provenance", True)}
     return {key: title for key, (title, is_there) in titles.items() if is_there}
 
@@ -120,15 +121,16 @@ def render(sweep: Sweep) -> str:
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     images = pictures.galleries(sweep)
     inspections, learned_note = learned.inspections(sweep)
+    means_file = schema.file_of(sweep.folder, schema.schema_of(sweep.folder, sweep.manifest), "configurations.csv").name
     found = findings.findings(sweep)  # after all has been read, as what could not be is among them
     program = f'"use strict";\n(() => {{\n{_joined(PROGRAMS)}\n}})();'
     tables = learned.saved_tables(sweep)
     return environment.get_template("page.html").render(
-        sweep=sweep, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
-        sections=_sections(bool(sweep.cells), bool(images), bool(inspections or tables)), galleries=images,
-        image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), inspections=inspections,
+        sweep=sweep, means_file=means_file, tolerances=tolerances, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
+        sections=_sections(bool(sweep.configurations), bool(images), bool(inspections or tables)), galleries=images,
+        image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), error_table=table.error_table(sweep), inspections=inspections,
         learned_note=learned_note, saved_tables=tables, published_ratios=_published_ratios(sweep),
-        ratio_table=table.ratio_table(sweep), one_seed=all(cell["seeds"] == "1" for cell in sweep.cells),
+        ratio_table=table.ratio_table(sweep), one_seed=all(row["seeds"] == "1" for row in sweep.configurations),
         run_table=table.run_table(sweep), facts=provenance.facts(sweep),
         formulas=provenance.formulas(sweep), config=provenance.config_text(sweep), colours=_colours(),
         css=Markup(_joined(STYLES)), js=Markup(program), data=Markup(_as_script(_data(sweep, images)))).lstrip()

@@ -1,4 +1,4 @@
-"""Images for the page: one per cell and one reference per scene, as half floats, reduced where they would be too many.
+"""Images for the page: one per configuration and one reference per scene, as half floats, reduced where they would be too many.
 
 An image is stored as a browser unpacks it without a library: planes R, G, B of half floats, all low bytes before all
 high bytes, each byte as its difference from the one before, zlib, base64. Bytes that differ little pack well; OpenEXR's ZIP
@@ -17,6 +17,7 @@ import numpy as np
 
 from analysis.command import AnalysisError
 from analysis.exr import read_exr
+from analysis.images import reference_file, shown_run, snapshots
 from analysis.report import number
 from analysis.report.sweep import Row, Sweep
 
@@ -32,7 +33,7 @@ Size = tuple[int, int]  # width and height
 class Picture:
     """`source` says which run's which snapshot it is."""
 
-    cell: str            # empty: a reference
+    configuration: str   # empty: a reference
     name: str
     source: str
     file: Path
@@ -71,26 +72,18 @@ def reduce(image: np.ndarray, factor: int) -> np.ndarray:
     return sums / counts[..., None]
 
 
-def reference_file(folder: Path, manifest: dict[str, Any]) -> Path | None:
-    """Where the manifest says or, in results that were moved, beside the experiment."""
-    name = (manifest.get("reference") or {}).get("file")
-    if not isinstance(name, str):
+def _snapshot(sweep: Sweep, configuration: Row) -> Picture | None:
+    """The last image of the seed that is shown."""
+    runs = {run["run"]: run for run in sweep.members[configuration["configuration"]]}
+    shown = shown_run(sweep.folder, runs)
+    if shown is None:
         return None
-    places = (folder.resolve().parent / "references" / Path(name).name, Path(name))
-    return next((place for place in places if place.is_file()), None)
-
-
-def _snapshot(sweep: Sweep, cell: Row) -> Picture | None:
-    """The last image of the first seed that has one."""
-    for run in sweep.members[cell["cell"]]:
-        images = sorted((sweep.folder / run["run"]).glob("frame_??????.exr"))
-        if images:
-            frame = int(images[-1].stem[-6:])
-            fireflies = (sweep.manifests.get(run["run"], {}).get("brightest_fireflies") or [])[:MAX_FIREFLIES]
-            error = f", relMSE {number.short(run['relmse'])}" if run["frames"] == str(frame) else ""
-            return Picture(cell["cell"], cell["label"], f"{run['run']}, frame {frame}{error}", images[-1],
-                           fireflies=fireflies)
-    return None
+    images = snapshots(sweep.folder / shown)
+    frame = max(images)
+    fireflies = (sweep.manifests.get(shown, {}).get("brightest_fireflies") or [])[:MAX_FIREFLIES]
+    error = f", relMSE {number.short(runs[shown]['relmse'])}" if runs[shown]["frames"] == str(frame) else ""
+    return Picture(configuration["configuration"], configuration["label"], f"{shown}, frame {frame}{error}", images[frame],
+                   fireflies=fireflies)
 
 
 def _size(manifest: dict[str, Any]) -> Size:
@@ -100,21 +93,23 @@ def _size(manifest: dict[str, Any]) -> Size:
 
 
 def _groups(sweep: Sweep) -> dict[tuple[str, Size], list[Picture]]:
-    """By scene and size, in the order of the cells."""
+    """By scene and size, in the order of the configurations."""
     groups: dict[tuple[str, Size], list[Picture]] = {}
-    for cell in (cell for cell in sweep.cells if sweep.members[cell["cell"]]):
-        manifest = sweep.run_manifest(cell["cell"])
-        picture = _snapshot(sweep, cell)
+    if not sweep.manifests:  # then one gap says so for all
+        return groups
+    for row in (row for row in sweep.configurations if sweep.members[row["configuration"]]):
+        name, manifest = row["configuration"], sweep.run_manifest(row["configuration"])
+        picture = _snapshot(sweep, row)
         if picture is None or _size(manifest) == (0, 0):
             what = "image frame_NNNNNN.exr" if picture is None else "readable manifest that says its images' size"
-            sweep.gaps.append(f"{sweep.folder}: no run of '{cell['cell']}' has an image on this page, as none has a {what}")
+            sweep.gaps.append(f"{sweep.folder}: no run of '{name}' has an image on this page, as none has a {what}")
             continue
-        group = groups.setdefault((cell["scene"], _size(manifest)), [])
+        group = groups.setdefault((row["scene"], _size(manifest)), [])
         picture.reference = reference_file(sweep.folder, manifest)
         if picture.reference is None:
-            sweep.gaps.append(f"{sweep.folder}: the reference image of '{cell['cell']}' is not found, so it has no error map")
+            sweep.gaps.append(f"{sweep.folder}: the reference image of '{name}' is not found, so it has no error map")
         elif not any(other.file == picture.reference for other in group):
-            several = any(other.cell == "" for other in group)
+            several = any(other.configuration == "" for other in group)
             group.append(Picture("", f"reference {picture.reference.stem[:8]}" if several else "reference",
                                  f"{picture.reference.name}, {(manifest.get('reference') or {}).get('samples', '?')} spp",
                                  picture.reference))
@@ -147,7 +142,7 @@ def galleries(sweep: Sweep) -> list[Gallery]:
     result = []
     for (scene, size), pictures in groups.items():
         readable = []
-        for picture in sorted(pictures, key=lambda picture: picture.cell != ""):
+        for picture in sorted(pictures, key=lambda picture: picture.configuration != ""):
             try:
                 _fill(picture, size, factor)
                 readable.append(picture)
@@ -163,5 +158,5 @@ def gallery_data(gallery: Gallery) -> dict[str, Any]:
     """What the viewer reads besides the pixels. `reference` is an index into the pictures, or null."""
     files = [picture.file for picture in gallery.pictures]
     return {"name": gallery.name, "size": gallery.size, "factor": gallery.factor, "pictures": [
-        {"cell": p.cell, "name": p.name, "source": p.source, "size": p.size, "fireflies": p.fireflies,
+        {"configuration": p.configuration, "name": p.name, "source": p.source, "size": p.size, "fireflies": p.fireflies,
          "reference": files.index(p.reference) if p.reference in files else None} for p in gallery.pictures]}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Iterable
 
+from analysis import tolerances
 from analysis.report import number
 from analysis.report.fields import Column, Field, Table, figure, plain
 from analysis.report.sweep import Row, Sweep
@@ -14,8 +15,8 @@ def total(rows: Iterable[Row], name: str) -> int:
 
 
 def _axes(sweep: Sweep) -> list[str]:
-    """Those that tell the cells of one scene apart, as in table.md; the label where there are none."""
-    axes = [name for name in next(iter(sweep.cells), {}) if name.startswith("axis:") and name not in ("axis:scene", "axis:seed")]
+    """Those that tell the configurations of one scene apart, as in summary.md; the label where there are none."""
+    axes = [name for name in next(iter(sweep.configurations), {}) if name.startswith("axis:") and name not in ("axis:scene", "axis:seed")]
     return axes or ["label"]
 
 
@@ -27,21 +28,21 @@ def _key_columns(sweep: Sweep) -> list[Column]:
     return [Column(name.removeprefix("axis:"), "", False) for name in _key_names(sweep)]
 
 
-def _key_fields(sweep: Sweep, cell: Row) -> list[Field]:
-    return [plain(cell[name]) for name in _key_names(sweep)]
+def _key_fields(sweep: Sweep, row: Row) -> list[Field]:
+    return [plain(row[name]) for name in _key_names(sweep)]
 
 
 def _table(sweep: Sweep, columns: list[Column], rows: list[tuple[Row, list[Field]]]) -> Table:
-    """With the keys of each cell in front of its fields."""
+    """With the keys of each configuration in front of its fields."""
     keys = _key_columns(sweep)
-    return Table([*keys, *columns], [(cell, [*_key_fields(sweep, cell), *fields]) for cell, fields in rows], len(keys) - 1)
+    return Table([*keys, *columns], [(row, [*_key_fields(sweep, row), *fields]) for row, fields in rows], len(keys) - 1)
 
 
 def _has(sweep: Sweep, name: str) -> bool:
-    return any(cell.get(name) for cell in sweep.cells)
+    return any(row.get(name) for row in sweep.configurations)
 
 
-# Figures of cells.csv by column, with what stands above them; shown where some cell has one.
+# Figures of configurations.csv by column, with what stands above them; shown where some row has one.
 FIGURES = {
     "host_ms_median": ("host ms/frame", "Median over a run's frames by the host's clock, mean over seeds"),
     "published": ("published ms", "What the publication that the config names has"),
@@ -52,39 +53,35 @@ FIGURES = {
     "slope_relmse": ("slope", "Of log relMSE against log spp; −1 where errors fall as 1/spp"),
     "fireflies_per_million": ("fireflies / M", "Samples brighter than firefly_multiple times their pixel's reference"),
     "gpu_ms_median": ("GPU ms/frame", "As host ms/frame, by the device's clock"),
-    "mse": ("MSE", "At the last frame, mean over seeds"),
-    "mape": ("MAPE", "At the last frame, mean over seeds"),
-    "flip": ("FLIP", "At the last frame, mean over seeds"),
 }
 RATIOS = {
-    "ratio_relmse_x_s": ("efficiency gain", "The baseline's relMSE × s divided by this cell's; above 1, this cell is better than the baseline"),
-    "ratio_time_to_relmse": ("time gain", "The baseline's time to its own final relMSE divided by this cell's; – where it was never reached"),
+    "ratio_relmse_x_s": ("efficiency gain", "The baseline's relMSE × s divided by this configuration's; above 1, this one is better than the baseline"),
+    "ratio_time_to_relmse": ("time gain", "The baseline's time to its own final relMSE divided by this configuration's; – where it was never reached"),
 }
+STRIPS = ("host_ms_median", "relmse", "relmse_x_s")  # drawn on a scale besides
 
 
-SLOPE_TOLERANCE = 0.1  # kSlopeTolerance of experiments/records/table.cpp
-
-
-def slope_is_off(cell: Row, name: str) -> str:
-    """'steep' or 'flat' where the interval of the slope lies beyond -1 by the tolerance of table.cpp; else ''."""
-    _, low, high = number.estimate(cell, name)
+def slope_is_off(row: Row, name: str) -> str:
+    """'steep' or 'flat' where the interval of the slope lies beyond -1 by the tolerance; else ''."""
+    _, low, high = number.estimate(row, name)
     if not low:
         return ""
-    return "steep" if float(high) < -1 - SLOPE_TOLERANCE else "flat" if float(low) > -1 + SLOPE_TOLERANCE else ""
+    return ("steep" if float(high) < -1 - tolerances.SLOPE else
+            "flat" if float(low) > -1 + tolerances.SLOPE else "")
 
 
-def _figure_field(sweep: Sweep, cell: Row, name: str) -> Field:
+def _figure_field(sweep: Sweep, row: Row, name: str) -> Field:
     if name == "published":
-        value = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame", {}).get(cell["cell"], "")
+        value = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame", {}).get(row["configuration"], "")
         return Field(number.short(str(value)), str(value))
-    field = figure(sweep.ratios.get(cell["cell"], {}) if name in RATIOS else cell, name)
-    off = name.startswith("slope") and slope_is_off(cell, name) != ""
-    return Field(field.shown, field.value, field.low, field.high, off, _spread(sweep, cell, name))
+    field = figure(sweep.ratios.get(row["configuration"], {}) if name in RATIOS else row, name)
+    off = name.startswith("slope") and slope_is_off(row, name) != ""
+    return Field(field.shown, field.value, field.low, field.high, off, _spread(sweep, row, name))
 
 
-def _spread(sweep: Sweep, cell: Row, name: str) -> str:
+def _spread(sweep: Sweep, row: Row, name: str) -> str:
     """What a run's own frames spread over, where there is only one run to tell."""
-    runs = sweep.members[cell["cell"]]
+    runs = sweep.members[row["configuration"]]
     clock = name.removesuffix("_ms_median")
     low, high = (runs[0].get(f"{clock}_ms_{end}", "") for end in ("p10", "p90")) if len(runs) == 1 else ("", "")
     return f"10th to 90th percentile of its frames: {low} to {high} ms" if name.endswith("_ms_median") and low else ""
@@ -94,12 +91,22 @@ def ratio_table(sweep: Sweep) -> Table:
     """All of ratios.csv that has an interval beside it, and its baselines."""
     names = [name for name in next(iter(sweep.ratios.values()), {}) if f"{name}_low" in next(iter(sweep.ratios.values()))]
     shown = [name for name in names if any(row[name] for row in sweep.ratios.values())]
-    cells = [cell for cell in sweep.cells if cell["cell"] in sweep.ratios]
+    rows = [(row, sweep.ratios[row["configuration"]]) for row in sweep.configurations if row["configuration"] in sweep.ratios]
     columns = [Column("baseline", "", False),
                *(Column(name.removeprefix("ratio_").replace("_", " "), name) for name in shown)]
-    rows = [sweep.ratios[cell["cell"]] for cell in cells]
-    return _table(sweep, columns, [(cell, [plain(row["baseline"]), *(figure(row, name) for name in shown)])
-                                   for cell, row in zip(cells, rows)])
+    return _table(sweep, columns, [(row, [plain(ratios["baseline"]), *(figure(ratios, name) for name in shown)])
+                                   for row, ratios in rows])
+
+
+def error_table(sweep: Sweep) -> Table:
+    """Every metric that was measured."""
+    metrics = [metric for metric in sweep.metrics.values() if metric.per_configuration and _has(sweep, metric.name)]
+    return _table(sweep, [Column(metric.axis, metric.formula) for metric in metrics],
+                  [(row, [figure(row, metric.name) for metric in metrics]) for row in sweep.configurations])
+
+
+def _main_column(name: str) -> Column:
+    return Column(*{**FIGURES, **RATIOS}[name], strip=name in STRIPS)
 
 
 def main_table(sweep: Sweep) -> Table:
@@ -109,22 +116,22 @@ def main_table(sweep: Sweep) -> Table:
     place = chosen.index("relmse_x_s") + 1 if "relmse_x_s" in chosen else len(chosen)
     chosen[place:place] = ratios
     verdicts = any(row.get("verdict") for row in sweep.summary)
-    columns = [*(Column(*{**FIGURES, **RATIOS}[name]) for name in chosen),
+    columns = [*map(_main_column, chosen),
                Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"), Column("non-finite", "Samples that were NaN or infinite"),
-               Column("at floor", "Seeds whose error is within 3 times the reference's own noise"),
+               Column("at floor", f"Seeds whose error is within {tolerances.REFERENCE_FLOOR} times the reference's own noise"),
                *([Column("verdict", "Against what the config expects", False)] if verdicts else [])]
-    return _table(sweep, columns, [(cell, _main_fields(sweep, cell, chosen, verdicts)) for cell in sweep.cells])
+    return _table(sweep, columns, [(row, _main_fields(sweep, row, chosen, verdicts)) for row in sweep.configurations])
 
 
-def _main_fields(sweep: Sweep, cell: Row, chosen: list[str], verdicts: bool) -> list[Field]:
-    runs = sweep.members[cell["cell"]]
-    floor, seeds = cell.get("seeds_at_reference_floor", ""), cell["seeds"]
+def _main_fields(sweep: Sweep, row: Row, chosen: list[str], verdicts: bool) -> list[Field]:
+    runs = sweep.members[row["configuration"]]
+    floor, seeds = row.get("seeds_at_reference_floor", ""), row["seeds"]
     bad = total(runs, "non_finite")
-    words = sorted({row["verdict"] for row in runs if row.get("verdict")})
-    few = cell.get("runs", seeds) != seeds
-    partial = bool(runs) and all(row["status"] == "partial" for row in runs)
-    seeds_text = f"{seeds} of {cell['runs']}" if few else seeds
-    return [*(_figure_field(sweep, cell, name) for name in chosen), plain(cell["frames"]),
+    words = sorted({run["verdict"] for run in runs if run.get("verdict")})
+    few = row.get("runs", seeds) != seeds
+    partial = bool(runs) and all(run["status"] == "partial" for run in runs)
+    seeds_text = f"{seeds} of {row['runs']}" if few else seeds
+    return [*(_figure_field(sweep, row, name) for name in chosen), plain(row["frames"]),
             Field(seeds_text + (" partial" if partial else ""), seeds, flag=few or partial), plain(str(bad), bad > 0),
             Field("no" if floor in ("", "0") else f"{floor} of {seeds}", floor or "0", flag=floor not in ("", "0")),
             *([plain(", ".join(words), any(word not in ("pass", "unseen") for word in words))] if verdicts else [])]
@@ -136,20 +143,20 @@ COUNTS = {"paths": False, "rays": False, "cell_lookups": False, "cell_fallbacks"
 
 
 def path_table(sweep: Sweep) -> Table:
-    """Path statistics: totals over the runs of a cell are sums of whole numbers of summary.csv."""
+    """Path statistics: totals over the runs of a configuration are sums of whole numbers of summary.csv."""
     columns = [Column("paths", "Of all seeds"), Column("rays", "Of all seeds"),
                Column("mean length", "Segments per path"), Column("zero paths", "Fraction that brought nothing"),
                Column("cell look-ups", ""), Column("fallbacks", "Look-ups where no site's normal fitted"),
                Column("saturated", "Updates of the table beyond its range"), Column("fireflies", ""),
                Column("clamped", "Samples scaled down by clamp_radiance (biased)"), Column("non-finite", "")]
     rows = []
-    for cell in sweep.cells:
-        runs = sweep.members[cell["cell"]]
+    for row in sweep.configurations:
+        runs = sweep.members[row["configuration"]]
         count = {name: total(runs, name) for name in COUNTS}
         fields = {name: Field(f"{value:,}".replace(",", " "), str(value), flag=COUNTS[name] and value > 0)
                   for name, value in count.items()}
-        rows.append((cell, [fields["paths"], fields["rays"],
-                            figure(cell, "mean_path_length"), figure(cell, "zero_path_fraction"),
+        rows.append((row, [fields["paths"], fields["rays"],
+                            figure(row, "mean_path_length"), figure(row, "zero_path_fraction"),
                             fields["cell_lookups"], fields["cell_fallbacks"], fields["saturated_updates"],
                             fields["fireflies"], fields["clamped_samples"], fields["non_finite"]]))
     return _table(sweep, columns, rows)
@@ -174,5 +181,5 @@ def run_table(sweep: Sweep) -> Table:
             shown = {"0": "no", "1": "yes"}.get(text, text) if name == "noisy" else text
             fields.append(Field(number.short(text) if is_figure else shown or number.NOTHING, text,
                                 flag=name == "noisy" and text == "1"))
-        rows.append(({"cell": row.get("cell", "")}, fields))
+        rows.append(({"configuration": row.get("configuration", "")}, fields))
     return Table(columns, rows)

@@ -172,7 +172,7 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                "starting from that"},
       rl.mixture);
   visit(KnobInfo{"bsdf_fraction", "probability",
-                 "share of directions drawn from the BSDF instead of the table; 0 in Goswami 2020", 0, 1},
+                 "share of directions drawn from the BSDF instead of the table; 0 is Goswami 2020", 0, 1},
         rl.bsdf_fraction);
   // The lower end keeps every bin reachable whatever was learned; without it the estimator is biased.
   visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",

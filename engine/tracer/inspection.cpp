@@ -1,5 +1,6 @@
 #include "engine/tracer/inspection.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/structs.h"

@@ -4,7 +4,6 @@
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/learning_schedule.h"
@@ -17,7 +16,6 @@
 namespace qtrace {
 namespace {
 
-constexpr int kLoopBudget = 65535;
 constexpr int kLoopsPerAction = 3;     // of learn.comp: visits, targets, distribution
 constexpr int kSitesPerIteration = 4;  // of the linear search in voronoi.glsl
 // Turns of the search through a tree of sites, for each of its levels. Two to three are usual, twenty were
@@ -40,21 +38,22 @@ int search_turns(const Scene& scene, const RlSettings& settings) {
 
 void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const RenderSettings& settings,
                        std::size_t actions) {
-  if (!gpu::is_llvmpipe()) return;
+  if (device.loop_limit == 0) return;
+  const auto budget = static_cast<int>(device.loop_limit);
   check(
-      actions <= kLoopBudget / kLoopsPerAction / 2,
+      actions <= static_cast<std::size_t>(budget / kLoopsPerAction / 2),
       "a table of {} actions (direction bins and learned lights) needs loops that the driver of this device "
       "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
       "another device",
-      actions, device.renderer, kLoopBudget);
+      actions, device.renderer, budget);
   const int turns = search_turns(scene, settings.rl);
   const int hits = settings.max_bounces + 1;
   const bool is_linear = settings.rl.site_search == SiteSearch::linear;
-  check(turns <= kLoopBudget / 2 / hits,
+  check(turns <= budget / 2 / hits,
         "a path of max_bounces {}, with up to {} turns of the search for each of its cells, may need {} loop "
         "iterations, and the driver of this device ({}) cuts loops after {}; lower max_bounces{}, or use "
         "another device",
-        settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, kLoopBudget,
+        settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, budget,
         is_linear ? ", choose rl.site_search lists, lower the number of sites" : "");
 }
 

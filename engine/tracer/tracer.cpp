@@ -1,5 +1,6 @@
 #include "engine/tracer/tracer.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
@@ -52,8 +53,8 @@ struct Tracer::State {
     if (trial.is_wanted()) {
       RenderSettings without = settings;
       without.sampler = Sampler::bsdf;
-      trace_without =
-          context.programs().get("passes/trace.comp", joined(shader_defines(without, buffers.features()), more));
+      trace_without = context.programs().get("passes/trace.comp",
+                                             joined(shader_defines(without, buffers.features()), more));
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);

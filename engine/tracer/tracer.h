@@ -5,8 +5,8 @@
 #include "engine/core/settings.h"
 #include "engine/gpu/context.h"
 #include "engine/scene/scene.h"
-#include "engine/tracer/qtable.h"
 #include "engine/tracer/counters.h"
+#include "engine/tracer/qtable.h"
 #include "engine/tracer/tracer_state.h"
 
 #include <array>

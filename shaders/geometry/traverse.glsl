@@ -6,9 +6,12 @@
 #ifndef BVH
 #define BVH BVH_SAH
 #endif
+// In the order of StackPlace (engine/gpu/driver.h).
+#define STACK_MEMORY 0
+#define STACK_REGISTERS 1
 #if BVH == BVH_THREADED
 #include "geometry/traverse_threaded.glsl"
-#elif FETCH == FETCH_IMAGE
+#elif STACK == STACK_REGISTERS
 #include "geometry/traverse_registers.glsl"
 #else
 #include "geometry/traverse_ordered.glsl"

@@ -20,6 +20,14 @@ sys.path.insert(0, str(ROOT))
 
 SNAPSHOTS = [1, 2, 4, 8]
 REFERENCE_NOISE = {"reference_mse": 0.002, "reference_relmse": 0.01}
+# As the program's manifests have them, of schema 2.
+METRICS = [{"name": name, "label": label, "unit": unit, "signed": signed, "per_configuration": per_configuration,
+            "formula": f"formula of {name}", "source": "textbook"}
+           for name, label, unit, signed, per_configuration in (
+               ("mse", "MSE", "squared radiance", False, True), ("relmse", "relMSE", "", False, True),
+               ("relmse_trimmed", "relMSE trimmed", "", False, True), ("mape", "MAPE", "", False, True),
+               ("smape", "SMAPE", "", False, True), ("flip", "HDR-FLIP", "", False, True),
+               ("bias", "bias", "radiance", True, True), ("reference_mse", "the reference's MSE", "", False, False))]
 METHODS = {"NEE, two rays": 1.0, "BSDF": 10.0, "RL": 4.0}  # relMSE at one sample, for a seed in the middle
 SECONDS = {"NEE, two rays": 0.5, "BSDF": 0.25, "RL": 1.0}  # per frame
 
@@ -55,12 +63,16 @@ def frame_rows(method: str) -> list[dict[str, Any]]:
             for frame in range(1, SNAPSHOTS[-1] + 1)]
 
 
-def cell_row(scene: str, method: str, seeds: tuple[int, ...]) -> dict[str, Any]:
+def configuration_row(scene: str, method: str, seeds: tuple[int, ...]) -> dict[str, Any]:
     from analysis.statistics import estimate
-    row: dict[str, Any] = {"cell": f"{scene} / {method}", "axis:scene": scene, "axis:method": method, "scene": scene,
-                           "frames": SNAPSHOTS[-1], "runs": len(seeds), "seeds": len(seeds)}
+    row: dict[str, Any] = {"configuration": f"{scene} / {method}", "axis:scene": scene, "axis:method": method,
+                           "scene": scene, "frames": SNAPSHOTS[-1], "runs": len(seeds), "seeds": len(seeds),
+                           "seeds_at_reference_floor": 0}
+    errors = [relmse(method, seed, SNAPSHOTS[-1], scene) for seed in seeds]
+    seconds = [SECONDS[method] * SNAPSHOTS[-1] + 0.01 * seed for seed in seeds]
     for name, values in (("host_ms_median", [SECONDS[method] * (1000 + seed) for seed in seeds]),
-                         ("relmse", [relmse(method, seed, SNAPSHOTS[-1], scene) for seed in seeds])):
+                         ("elapsed_s", seconds), ("relmse", errors), ("mse", [error / 2 for error in errors]),
+                         ("relmse_x_s", [a * b for a, b in zip(errors, seconds)])):
         figure = estimate(values)
         ends = (figure.low, figure.high) if len(seeds) > 1 else ("", "")
         row |= {name: figure.mean, f"{name}_sd": np.std(values, ddof=1) if len(seeds) > 1 else "",
@@ -79,15 +91,16 @@ def write_results(folder: Path, scenes: tuple[str, ...] = ("simple", "occluded")
                 (folder / run).mkdir(parents=True)
                 write_csv(folder / run / "convergence.csv", convergence_rows(scene, method, seed))
                 write_csv(folder / run / "frames.csv", frame_rows(method))
-                summary.append({"run": run, "cell": f"{scene} / {method}", "axis:scene": scene,
+                summary.append({"run": run, "configuration": f"{scene} / {method}", "axis:scene": scene,
                                 "axis:method": method, "axis:seed": str(seed), "scene": scene, "seed": seed,
                                 "status": "finished", "reason": "", "frames": SNAPSHOTS[-1],
                                 "host_ms_median": SECONDS[method] * (1000 + seed),
-                                "relmse": relmse(method, seed, SNAPSHOTS[-1], scene)})
+                                "relmse": relmse(method, seed, SNAPSHOTS[-1], scene), **REFERENCE_NOISE})
                 runs.append({"run": run, "status": "finished"})
     write_csv(folder / "summary.csv", summary)
-    write_csv(folder / "cells.csv", [cell_row(scene, method, seeds) for scene in scenes for method in methods])
-    manifest = {"schema": 1, "status": "finished", "experiment": "study", "device": {"renderer": "a device"}, "runs": runs}
+    write_csv(folder / "configurations.csv", [configuration_row(scene, method, seeds) for scene in scenes for method in methods])
+    manifest = {"schema": 2, "status": "finished", "experiment": "study", "device": {"renderer": "a device"},
+                "metrics": METRICS, "runs": runs}
     (folder / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
     return folder
 

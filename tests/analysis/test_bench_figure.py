@@ -49,7 +49,7 @@ class BenchFigureTest(FolderTest):
     def test_on_hardware_ratios_are_those_of_the_clock(self) -> None:
         self.write(software=False)
         self.assertEqual(self.texts(self.axes("simple")).count("0.60"), 2)
-        self.assertIn("1.70", self.texts(self.axes("The report's table, 64²")))
+        self.assertIn("1.70", self.texts(self.axes("The table of Goswami 2020, 64²")))
 
     def test_steps_stand_one_after_another_without_the_whole(self) -> None:
         self.write(software=False)

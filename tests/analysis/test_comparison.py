@@ -4,14 +4,14 @@ import json
 import math
 import unittest
 
-from support import METHODS, FolderTest, write_results
+from support import METHODS, ROOT, FolderTest, write_results
 
 import numpy as np
 
 from analysis.compare_results import main
 from analysis.comparison import compare, false_discovery
 from analysis.load import load
-from analysis.ratios import ratio_of_means
+from analysis.welch import ratio_of_means
 
 
 class StatisticsTest(unittest.TestCase):
@@ -55,37 +55,37 @@ class CompareTest(FolderTest):
         self.b = write_results(self.folder / "b")
 
     def verdicts(self, a, b) -> dict:
-        return {(row.cell, row.figure): row.verdict for row in compare(a, b).rows}
+        return {(row.configuration, row.figure): row.verdict for row in compare(a, b).rows}
 
     def test_itself_is_the_same(self) -> None:
         verdicts = self.verdicts(load(self.a), load(self.b))
-        self.assertEqual(len(verdicts), 2 * 3 * 6)  # GL times are not in these files
+        self.assertEqual(len(verdicts), 2 * 3 * 7)  # GL times are not in these files
         self.assertEqual(set(verdicts.values()), {"same"})
 
     def test_a_change_is_found_and_noise_is_not(self) -> None:
         a, b = load(self.a), load(self.b)
-        rl = b.summary.cell == "simple / RL"
+        rl = b.summary.configuration == "simple / RL"
         b.summary.loc[rl, "host_ms_median"] *= 1.5  # the seeds differ by 0.1 %
-        b.convergence.loc[b.convergence.cell == "occluded / BSDF", "relmse"] *= 1.02  # and by 10 %
+        b.convergence.loc[b.convergence.configuration == "occluded / BSDF", "relmse"] *= 1.02  # and by 10 %
         result = compare(a, b)
-        verdicts = {(row.cell, row.figure): row.verdict for row in result.rows}
+        verdicts = {(row.configuration, row.figure): row.verdict for row in result.rows}
         self.assertEqual(verdicts["simple / RL", "ms/frame (host)"], "changed")
         self.assertEqual(verdicts["occluded / BSDF", "relMSE"], "noise")
         self.assertEqual(verdicts["occluded / BSDF", "relMSE × s"], "noise")
-        self.assertEqual((result.count("changed"), result.count("noise"), result.count("same")), (1, 2, 33))
+        self.assertEqual((result.count("changed"), result.count("noise"), result.count("same")), (1, 2, 39))
         row = next(row for row in result.rows if row.verdict == "changed")
         self.assertAlmostEqual(row.comparison.ratio, 1.5, places=12)
         self.assertLess(row.comparison.low, 1.5)
 
     def test_many_comparisons_are_corrected(self) -> None:
-        """One change of p about 0.02 alone is a change; among 35 others that are noise it is unclear."""
+        """One change of p about 0.02 alone is a change; among 41 others that are noise it is unclear."""
         a, b = load(self.a), load(self.b)
-        at = (b.convergence.cell == "simple / RL")
+        at = (b.convergence.configuration == "simple / RL")
         b.convergence.loc[at, "relmse"] *= 1.35
         alone = compare(a, b)
-        row = next(row for row in alone.rows if (row.cell, row.figure) == ("simple / RL", "relMSE"))
+        row = next(row for row in alone.rows if (row.configuration, row.figure) == ("simple / RL", "relMSE"))
         self.assertTrue(0.01 < row.comparison.p < 0.05, row.comparison.p)
-        b.convergence.loc[~at, ["mse", "relmse", "relmse_trimmed", "mape"]] *= 1.001
+        b.convergence.loc[~at, ["mse", "relmse", "relmse_trimmed", "mape", "smape"]] *= 1.001
         b.summary.host_ms_median *= 1.00001
         among = self.verdicts(a, b)
         self.assertEqual(among["simple / RL", "relMSE"], "unclear")
@@ -97,16 +97,31 @@ class CompareTest(FolderTest):
 
     def test_shorter_runs_are_compared_where_both_have_been(self) -> None:
         a, b = load(self.a), load(self.b)
-        short = load(self.b)
-        cut = short.convergence[short.convergence.frame <= 4]
-        result = compare(a, type(b)(b.folder, b.experiment, b.summary, cut))
+        b.__dict__["convergence"] = b.convergence[b.convergence.frame <= 4]
+        result = compare(a, b)
         self.assertEqual({row.verdict for row in result.rows}, {"same"})
         self.assertIn("the runs differ in length; errors are those after frame 4: simple / NEE, two rays; simple / BS",
                       result.warnings[0])
 
+    def test_folders_without_the_files_of_their_runs(self) -> None:
+        """Published ones: the summary has each run's last errors."""
+        folder = ROOT / "results/published/time_to_error"
+        result = compare(load(folder), load(folder))
+        self.assertEqual({row.verdict for row in result.rows}, {"same"})
+        self.assertEqual(len({row.configuration for row in result.rows}), 35)
+        self.assertTrue({"MSE", "relMSE × s", "ms/frame (host)"} <= {row.figure for row in result.rows})
+
+    def test_a_metric_that_only_the_manifest_knows(self) -> None:
+        for side in (self.a, self.b):
+            manifest = json.loads((side / "manifest.json").read_text())
+            manifest["metrics"].append({"name": "gpu_elapsed_s", "label": "a new one", "unit": "x", "signed": False,
+                                        "per_configuration": True, "formula": "f", "source": "s"})
+            (side / "manifest.json").write_text(json.dumps(manifest))
+        self.assertIn(("simple / RL", "a new one"), self.verdicts(load(self.a), load(self.b)))
+
     def test_command(self) -> None:
         self.results = self.b
-        for name in ("summary.csv", "cells.csv"):
+        for name in ("summary.csv", "configurations.csv"):
             self.edit(name, lambda text: text.replace("occluded / RL", "occluded / <b>new</b>"))
         manifest = json.loads((self.b / "manifest.json").read_text())
         manifest["device"]["renderer"] = "another & device"
@@ -115,7 +130,7 @@ class CompareTest(FolderTest):
         code, printed, err = self.run_script(main, self.a, self.b, "--out", out)
         self.assertEqual((code, err), (0, ""))
         for words in ("only in A: occluded / RL\n", "only in B: occluded / <b>new</b>\n",
-                      "differs: device.renderer: a device | another & device", "30 comparisons in 5 cells: 30 the same",
+                      "differs: device.renderer: a device | another & device", "35 comparisons in 5 configurations: 35 the same",
                       "Benjamini and Hochberg", f"{out / 'compare.html'}\n"):
             self.assertIn(words, printed)
         page = (out / "compare.html").read_text()
@@ -123,7 +138,7 @@ class CompareTest(FolderTest):
         self.assertIn("another &amp; device", page)
         self.assertIn("<p>only in A: occluded / RL</p>", page)
         self.assertNotIn("<b>new", page)
-        self.assertEqual(page.count("<circle"), 30)
+        self.assertEqual(page.count("<circle"), 35)
         self.assertNotRegex(page, r"(?:src|href)=|https?://|@import|url\(")  # it needs nothing else
         for method in METHODS:
             self.assertIn(f"simple / {method}", page)
@@ -132,7 +147,7 @@ class CompareTest(FolderTest):
         other = write_results(self.folder / "other", scenes=("elsewhere",))
         code, out, err = self.run_script(main, self.a, other)
         self.assertEqual((code, out), (1, ""))
-        self.assertIn("share no finished cell", err)
+        self.assertIn("share no finished configuration", err)
         self.assertIn("elsewhere / BSDF", err)
         self.assertFalse((other / "compare.html").exists())
 

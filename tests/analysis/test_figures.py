@@ -1,4 +1,5 @@
-"""What is printed: widths, glyphs, the same bytes again, and points and tables that hold what the files hold."""
+"""The one door: what is drawn of a folder and what is not; in print: widths, glyphs, the same bytes again, and points and
+tables that hold what the files hold."""
 
 import csv
 import os
@@ -12,13 +13,13 @@ from support import METHODS, ROOT, SECONDS, FolderTest, relmse, write_csv, write
 import numpy as np
 
 from analysis import style
-from analysis.cost_figure import cost_figure
-from analysis.figures import main
+from analysis.figures import KINDS, main
+from analysis.kinds.cost import cost_figure
 from analysis.load import load
 from analysis.statistics import estimate, t_quantile
 
-NAMES = ["convergence_relmse", "convergence_relmse_simple_spp", "convergence_relmse_simple_seconds",
-         "cost_relmse_simple", "cells_simple"]
+NAMES = ["curves_relmse", "curves_relmse_simple_spp", "curves_relmse_simple_seconds", "cost_relmse_simple",
+         "ablation_simple"]
 
 
 def width_points(pdf: bytes) -> float:
@@ -51,7 +52,7 @@ class CostTest(FolderTest):
     def test_diagonals_are_of_equal_error_times_time(self) -> None:
         results = load(write_results(self.results))
         for spread, step in ((1, 2), (1e4, 10)):
-            results.convergence.loc[results.convergence.label == "RL", "relmse"] *= spread
+            results.configurations.loc[results.configurations.label == "RL", ["relmse", "relmse_low", "relmse_high"]] *= spread
             axes = cost_figure(results, "relmse", "simple").axes[0]
             products = [line.get_xdata() * line.get_ydata() for line in axes.lines if line.get_label() == "_diagonal"]
             self.assertGreater(len(products), 3)
@@ -67,11 +68,12 @@ class PrintTest(FolderTest):
         self.out = self.folder / "figures"
 
     def test_files(self) -> None:
-        code, printed, err = self.run_script(main, self.results, "--out", self.out)
+        code, printed, err = self.run_script(main, self.results, "--out", self.out, "--format", "pdf,svg")
         self.assertEqual((code, err), (0, ""))
         expected = [f"{name}.{kind}" for name in NAMES for kind in ("pdf", "svg")] + \
                    [f"table.{kind}" for kind in ("csv", "md", "tex")]
-        self.assertEqual([line.rpartition("/")[2] for line in printed.splitlines()], expected)
+        written = [line.rpartition("/")[2] for line in printed.splitlines() if "not drawn" not in line]
+        self.assertEqual(written, expected)
         for name in NAMES:
             pdf = (self.out / f"{name}.pdf").read_bytes()
             look = style.PAGE if name in (NAMES[0], NAMES[4]) else style.COLUMN
@@ -85,15 +87,15 @@ class PrintTest(FolderTest):
             self.assertNotIn("<dc:date>", svg)
         first = {file.name: file.read_bytes() for file in self.out.iterdir()}
         again = self.folder / "again"  # in another process, with other hashes
-        subprocess.run([sys.executable, ROOT / "analysis/figures.py", self.results, "--out", again], check=True,
+        subprocess.run([sys.executable, ROOT / "analysis/figures.py", self.results, "--out", again, "--format", "pdf,svg"], check=True,
                        stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONHASHSEED": "7"})
         self.assertEqual(first, {file.name: file.read_bytes() for file in again.iterdir()})
 
     def test_table_and_ratios(self) -> None:
         write_csv(self.results / "ratios.csv",
-                  [{"cell": "simple / RL", "baseline": "simple / BSDF", "scene": "simple", "ratio_relmse": 2.5,
+                  [{"configuration": "simple / RL", "baseline": "simple / BSDF", "scene": "simple", "ratio_relmse": 2.5,
                     "ratio_relmse_low": 2.25, "ratio_relmse_high": 2.75}])
-        self.assertEqual(self.run_script(main, self.results, "--out", self.out, "--format", "svg")[0], 0)
+        self.assertEqual(self.run_script(main, self.results, "--out", self.out, "--only", "tables")[0], 0)
         with (self.out / "table.csv").open(newline="") as stream:
             rows = {row["method"]: row for row in csv.DictReader(stream)}
         self.assertEqual(list(rows), list(METHODS))
@@ -108,14 +110,65 @@ class PrintTest(FolderTest):
     def test_failures(self) -> None:
         for arguments, words in ((("--metric", "bias"), "unknown metric 'bias'"),
                                  (("--format", "gif"), "unknown format 'gif'"),
-                                 (("--metric", "flip"), "no flip was measured")):
-            code, out, err = self.run_script(main, self.results, *arguments)
-            self.assertEqual((code, out), (1, ""))
+                                 (("--only", "curves,plot"), "unknown kind 'plot'; known are curves, cost")):
+            code, _, err = self.run_script(main, self.results, *arguments, "--out", self.out)
+            self.assertEqual(code, 1)
             self.assertIn(words, err)
-        (self.results / "cells.csv").unlink()
-        code, _, err = self.run_script(main, self.results, "--out", self.out)
-        self.assertEqual((code, self.out.exists()), (1, False))
-        self.assertIn("cells.csv: no such file", err)
+        self.assertEqual(self.run_script(main, self.folder / "nowhere")[::2],
+                         (1, f"error: {self.folder / 'nowhere'}: no such folder; the folder of an experiment is needed, like "
+                             "results/convergence\n"))
+
+
+class DoorTest(FolderTest):
+    """Whatever can be drawn is, and of the rest one line says why not."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        write_results(self.results, scenes=("simple",))
+
+    def drawn(self, *arguments: object) -> tuple[int, dict[str, str], str]:
+        """The first line about each kind."""
+        code, out, err = self.run_script(main, self.results, *arguments)
+        lines = [line.partition(": ")[::2] for line in out.splitlines()]
+        return code, {kind: text for kind, text in reversed(lines)}, err
+
+    def test_every_kind_is_spoken_of(self) -> None:
+        code, lines, err = self.drawn()
+        self.assertEqual((code, err, set(lines)), (0, "", set(KINDS)))
+        for kind, reason in (("gains", "has no ratios.csv: its config names no baseline"),
+                             ("sheets", "no run of simple has images"), ("inspect", "no run was inspected"),
+                             ("learning_curve", "no run has saved its table")):
+            self.assertRegex(lines[kind], f"^not drawn: .*{reason}")
+        for kind in ("curves", "cost", "ablation", "tables"):
+            self.assertTrue((self.results / "figures").samefile(lines[kind].rpartition("/")[0]), kind)
+
+    def test_what_was_asked_for_by_name_must_be_drawn(self) -> None:
+        code, lines, err = self.drawn("--only", "gains,ablation")
+        self.assertEqual((code, set(lines)), (1, {"ablation"}))
+        self.assertRegex(err, "^error: gains: .*names no baseline.*\n$")
+
+    def test_published_results_have_no_files_of_runs(self) -> None:
+        for run in self.results.glob("*/*.csv"):
+            run.unlink()
+        code, lines, err = self.drawn()
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("not drawn", lines["curves"])
+        self.assertIn("cost_relmse_simple.png", lines["cost"])
+
+    def test_what_is_damaged_is_an_error_in_any_case(self) -> None:
+        file = self.results / "scene=simple,method=nee-two-rays,seed=1" / "convergence.csv"
+        file.write_text(file.read_text().replace("0.9", "much", 1))
+        code, lines, err = self.drawn()
+        self.assertEqual(code, 1)
+        self.assertRegex(err, "^error: curves: .*convergence.csv: column '.*' holds something that is not a number")
+        self.assertIn("ablation_simple.png", lines["ablation"])
+
+    def test_a_folder_of_which_nothing_can_be_drawn(self) -> None:
+        self.results = self.folder / "empty"
+        self.results.mkdir()
+        code, lines, err = self.drawn()
+        self.assertEqual(code, 1)
+        self.assertIn("has no summary.csv, so it is not the folder of an experiment", err)
 
 
 if __name__ == "__main__":

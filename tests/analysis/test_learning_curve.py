@@ -7,7 +7,8 @@ from support import FolderTest, METHODS, SNAPSHOTS, write_results
 
 import numpy as np
 
-from analysis.learning_curve import learning_figure, main, table_error, table_errors
+from analysis.figures import main
+from analysis.kinds.learning_curve import learning_figure, table_error, table_errors
 from analysis.load import load
 
 TRUTH = 2.0
@@ -51,7 +52,7 @@ class LearningTest(FolderTest):
         np.save(run / "q_visits_000001.npy", np.zeros((3, BINS + 2), np.uint32))
         self.assertTrue(np.isnan(table_error(run, 1, TRUTH)))
 
-    def test_a_line_per_cell_over_frames(self) -> None:
+    def test_a_line_per_configuration_over_frames(self) -> None:
         (axes,) = learning_figure(load(self.results), TRUTH).axes
         self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
         lines = {line.get_label(): line for line in axes.lines}
@@ -64,13 +65,19 @@ class LearningTest(FolderTest):
         self.assertEqual(axes.get_title(loc="left"), "simple")
 
     def test_writes_a_figure(self) -> None:
-        code, out, err = self.run_script(main, self.results, "--truth", "2")
-        file = self.results / "learning_curve.png"
-        self.assertEqual((code, out, err), (0, f"{file}\n", ""))
+        code, out, err = self.run_script(main, self.results, "--only", "learning_curve", "--truth", "2")
+        file = self.results / "figures" / "learning_curve.png"
+        self.assertEqual((code, out, err), (0, f"learning_curve: {file}\n", ""))
         self.assertTrue(file.read_bytes().startswith(b"\x89PNG"))
 
+    def test_needs_the_truth_and_tables(self) -> None:
+        self.check_fails("learning_curve: needs --truth RADIANCE", "--metric", "relmse")
+        for file in self.results.glob("*/q_values_*.npy"):
+            file.unlink()
+        self.check_fails("no run has saved its table")
+
     def check_fails(self, words: str, *more: object) -> None:
-        code, out, err = self.run_script(main, self.results, *(more or ("--truth", "2")))
+        code, out, err = self.run_script(main, self.results, "--only", "learning_curve", *(more or ("--truth", "2")))
         self.assertEqual((code, out), (1, ""))
         self.assertRegex(err, f"^error: .*{words}.*\n$")
 

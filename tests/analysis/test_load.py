@@ -2,20 +2,22 @@
 
 import unittest
 
-from support import ROOT, FolderTest, relmse, write_results
+import shutil
+
+from support import ROOT, SNAPSHOTS, FolderTest, relmse, write_results
 
 from analysis import csv_file
-from analysis.load import (CELLS_COLUMNS, CONVERGENCE_COLUMNS, FRAMES_COLUMNS, RATIOS_COLUMNS, SUMMARY_COLUMNS,
-                           LoadError, load)
+from analysis.load import (CONFIGURATIONS_COLUMNS, CONVERGENCE_COLUMNS, FRAMES_COLUMNS, RATIOS_COLUMNS, SUMMARY_COLUMNS,
+                           LoadError, MissingError, load)
 
 FIRST_RUN = "scene=simple,method=nee-two-rays,seed=1"
 
 
 class ContractTest(unittest.TestCase):
     def test_every_column_used_is_one_that_the_program_writes(self) -> None:
-        declared = "".join((ROOT / "experiments" / name).read_text(encoding="utf-8")
-                           for name in ("records.cpp", "cell_columns.cpp", "ratio_columns.cpp"))
-        for column in {*CELLS_COLUMNS, *RATIOS_COLUMNS, *SUMMARY_COLUMNS, *CONVERGENCE_COLUMNS, *FRAMES_COLUMNS, *csv_file.TEXT, *csv_file.BOOLEAN}:
+        declared = "".join(file.read_text(encoding="utf-8") for room in ("records", "measure")
+                           for file in (ROOT / "experiments" / room).glob("*.cpp"))
+        for column in {*CONFIGURATIONS_COLUMNS, *RATIOS_COLUMNS, *SUMMARY_COLUMNS, *CONVERGENCE_COLUMNS, *FRAMES_COLUMNS, *csv_file.TEXT, *csv_file.BOOLEAN}:
             self.assertIn(f'"{column}"', declared)
 
 
@@ -31,7 +33,7 @@ class LoadTest(FolderTest):
         self.assertEqual(len(results.convergence), 2 * 3 * 3 * 4)
         self.assertEqual(len(results.frames), 2 * 3 * 3 * 8)
         for frame in (results.convergence, results.frames):
-            self.assertEqual(list(frame.columns[:8]), ["run", "cell", "label", "axis:scene", "axis:method",
+            self.assertEqual(list(frame.columns[:8]), ["run", "configuration", "label", "axis:scene", "axis:method",
                                                        "axis:seed", "scene", "seed"])
         self.assertEqual(list(dict.fromkeys(results.convergence.label)), ["NEE, two rays", "BSDF", "RL"])
 
@@ -55,10 +57,10 @@ class LoadTest(FolderTest):
         self.assertEqual(results.summary.label[0], "NA")
         self.assertIn("sites=10", set(results.convergence.label))
 
-    def test_without_axes_the_only_cell_is_all(self) -> None:
+    def test_without_axes_the_only_configuration_is_all(self) -> None:
         self.edit("summary.csv", lambda text: text.replace("axis:scene", "x").replace("axis:method", "y"))
         self.edit("summary.csv", lambda text: "\r\n".join(text.splitlines()[:1]) + "\r\n"
-                  f'"{FIRST_RUN}",all,0,0,1,simple,1,finished,,8,5.5,0.1\r\n')
+                  f'"{FIRST_RUN}",all,0,0,1,simple,1,finished,,8,5.5,0.1,,\r\n')
         self.assertEqual(set(load(self.results).convergence.label), {"all"})
 
     def test_failed_runs_stay_in_the_summary_alone(self) -> None:
@@ -70,6 +72,33 @@ class LoadTest(FolderTest):
         self.assertNotIn(FIRST_RUN, set(results.convergence.run))
 
 
+    def test_files_of_runs_are_read_when_they_are_asked_for(self) -> None:
+        for run in self.results.iterdir():
+            if run.is_dir():
+                shutil.rmtree(run)
+        results = load(self.results)
+        self.assertEqual((len(results.finished), len(results.configurations)), (18, 6))
+        self.assertEqual(results.configurations.relmse[2], sum(relmse("RL", seed, SNAPSHOTS[-1]) for seed in (1, 2, 3)) / 3)
+        for frame, name in (("convergence", "convergence.csv"), ("frames", "frames.csv")):
+            with self.assertRaisesRegex(MissingError, f"no run's {name} is here; this folder was kept without"):
+                getattr(results, frame)
+
+
+class PublishedTest(unittest.TestCase):
+    def test_every_experiment_loads(self) -> None:
+        folders = sorted(file.parent for file in (ROOT / "results/published").glob("**/summary.csv"))
+        self.assertGreater(len(folders), 10)
+        for folder in folders:
+            with self.subTest(folder.name):
+                results = load(folder)
+                self.assertGreater(len(results.finished), 0)
+                self.assertTrue(results.finished.relmse.notna().any())
+                with self.assertRaisesRegex(MissingError, "kept without the files of its runs"):
+                    results.convergence
+                if results.has_ratios:
+                    self.assertTrue(set(results.ratios.configuration) < set(results.configurations.configuration))
+
+
 class LoadErrorTest(FolderTest):
     def setUp(self) -> None:
         super().setUp()
@@ -77,7 +106,8 @@ class LoadErrorTest(FolderTest):
 
     def check(self, pattern: str) -> None:
         with self.assertRaisesRegex(LoadError, pattern) as caught:
-            load(self.results).frames
+            results = load(self.results)
+            results.convergence, results.frames
         self.assertNotIn("\n", str(caught.exception))
 
     def test_missing_folder(self) -> None:

@@ -86,7 +86,7 @@ class OracleTest(unittest.TestCase):
 
 class ColourMapTest(unittest.TestCase):
     def test_magma_is_matplotlibs(self) -> None:
-        table = (ROOT / "experiments" / "magma.h").read_text(encoding="utf-8")
+        table = (ROOT / "experiments" / "images" / "magma.h").read_text(encoding="utf-8")
         entries = [int(entry, 16) for entry in re.findall(r"0x[0-9a-f]{6}", table)]
         colours = np.rint(np.array(matplotlib.colormaps["magma"].colors) * 255).astype(int)
         self.assertEqual(entries, [int(r << 16 | g << 8 | b) for r, g, b in colours.tolist()])

@@ -5,8 +5,9 @@ import unittest
 
 from support import FolderTest, METHODS, SECONDS, relmse, write_results
 
-from analysis.load import load
-from analysis.statistics import estimate, over_seeds, t_probability, t_quantile
+from analysis.load import MissingError, load
+from analysis.points import at_the_end, over_seeds
+from analysis.statistics import estimate, t_quantile, t_tail
 
 
 class StudentTest(unittest.TestCase):
@@ -16,8 +17,11 @@ class StudentTest(unittest.TestCase):
             self.assertAlmostEqual(t_quantile(degrees), t, delta=0.0006)
 
     def test_closed_forms(self) -> None:
-        self.assertAlmostEqual(t_quantile(1), math.tan(math.pi * 0.475), places=9)
-        self.assertAlmostEqual(t_probability(1.5, 2), 1.5 / math.sqrt(2 + 1.5 ** 2), places=12)
+        """One and two degrees: to the last digits, as the program's own are compared with these to twelve."""
+        self.assertAlmostEqual(t_quantile(1) / math.tan(math.pi * 0.475), 1, places=14)
+        self.assertAlmostEqual(t_quantile(2) / (0.95 * math.sqrt(2 / (1 - 0.95 ** 2))), 1, places=14)
+        self.assertAlmostEqual(t_tail(1.5, 2), 1 - 1.5 / math.sqrt(2 + 1.5 ** 2), places=15)
+        self.assertAlmostEqual(t_tail(-1.5, 1), 1 - 2 / math.pi * math.atan(1.5), places=15)
 
 
 class EstimateTest(unittest.TestCase):
@@ -59,7 +63,7 @@ class EstimateTest(unittest.TestCase):
 
 
 class OverSeedsTest(FolderTest):
-    def test_each_cell_and_snapshot_once(self) -> None:
+    def test_each_configuration_and_snapshot_once(self) -> None:
         points = over_seeds(load(write_results(self.results)).convergence, "relmse")
         self.assertEqual(len(points), 2 * 3 * 4)
         for point in points.itertuples():
@@ -81,3 +85,24 @@ class OverSeedsTest(FolderTest):
         results = load(write_results(self.results, seeds=(2,)))
         points = over_seeds(results.convergence, "mse")
         self.assertEqual(points["mean"][0], relmse("NEE, two rays", 2, 1) / 2)
+
+
+class EndTest(FolderTest):
+    def test_ends_are_those_of_the_file(self) -> None:
+        results = load(write_results(self.results))
+        table = results.configurations
+        for metric in ("relmse", "relmse_x_s"):
+            points = at_the_end(results, metric)
+            self.assertEqual(list(points.label), list(METHODS) * 2)
+            for name, column in (("mean", metric), ("low", f"{metric}_low"), ("high", f"{metric}_high"),
+                                 ("seconds", "elapsed_s"), ("seconds_low", "elapsed_s_low"), ("seeds", "seeds")):
+                self.assertEqual(list(points[name]), list(table[column]))
+        self.assertFalse(points.at_floor.any())
+
+    def test_a_figure_that_is_not_there(self) -> None:
+        with self.assertRaisesRegex(MissingError, "have no column 'flip'"):
+            at_the_end(load(write_results(self.results)), "flip")
+
+
+if __name__ == "__main__":
+    unittest.main()

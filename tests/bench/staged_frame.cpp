@@ -1,5 +1,6 @@
 #include "tests/bench/staged_frame.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/gpu/driver.h"
 #include "engine/gpu/program.h"

@@ -6,8 +6,8 @@
 
 namespace qtrace::bench {
 
-// Of the configurations of Goswami 2020's table that learn directions. Throws Error where the frame taken
-// apart does not render the tracer's image. Prints a table and writes steps.csv and step_rounds.csv.
+// Of the configurations of Goswami's table that learn directions. Throws Error where the frame taken apart does not
+// render the tracer's image. Prints a table and writes steps.csv and step_rounds.csv.
 //   a pass of its own (learning, accumulation) is timed as such;
 //   a step within the tracing shader is the difference that it makes to the time of that pass: look-up and
 //   drawing when they are done twice, which finds its data in the caches, and so the least that they cost;

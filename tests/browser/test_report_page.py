@@ -1,11 +1,11 @@
-"""The page of `./dev report` as its readers use it: opened from disk, clicked, dragged and typed at."""
+"""The report page as its readers use it: opened from disk, clicked, dragged and typed at."""
 
 import unittest
 from pathlib import Path
 
 import numpy as np
 from browser import BrowserTest  # first: it puts the others on the path
-from report_results import FIREFLY, fail_run, picture, read_fields, write_report_results
+from page_results import FIREFLY, fail_run, picture, read_fields, write_page_results
 from support import write_csv
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
@@ -19,11 +19,11 @@ FAILED = "scene=occluded,method=rl,seed=3"
 class PageTest(BrowserTest):
     @classmethod
     def make_page(cls) -> Path:
-        results = write_report_results(cls.folder / "study", side=16)
+        results = write_page_results(cls.folder / "study", side=16)
         fail_run(results, FAILED, "failed", "frame 3 took longer than frame_timeout_s", 2)
-        cells = read_fields(results / "cells.csv")
-        cells[0]["relmse"] = "0.12512345678901234"  # more digits than anybody would show
-        write_csv(results / "cells.csv", cells)
+        configurations = read_fields(results / "configurations.csv")
+        configurations[0]["relmse"] = "0.12512345678901234"  # more digits than anybody would show
+        write_csv(results / "configurations.csv", configurations)
         page = cls.folder / "elsewhere" / "a page.html"
         report_page.main([str(results), "--out", str(page)])
         return page
@@ -37,13 +37,13 @@ class PageTest(BrowserTest):
         self.assertEqual({url for url in self.requested() if not url.startswith(("data:", "blob:"))}, {self.page.as_uri()})
 
     def column(self, name: str) -> list[str]:
-        heads = [head.text.replace("\n", " ").strip(" ↕↑↓") for head in self.find_all("#cells-table thead th")]
+        heads = [head.text.replace("\n", " ").strip(" ↕↑↓") for head in self.find_all("#configurations-table thead th")]
         place = heads.index(name)
-        return self.run_js("return [...document.querySelectorAll('#cells-table tbody tr')].map("
+        return self.run_js("return [...document.querySelectorAll('#configurations-table tbody tr')].map("
                            "row => row.cells[arguments[0]].dataset.value)", place)
 
     def press_heading(self, name: str) -> str:
-        for head in self.find_all("#cells-table thead th"):
+        for head in self.find_all("#configurations-table thead th"):
             if head.text.replace("\n", " ").strip(" ↕↑↓") == name:
                 head.find_element("css selector", "button").send_keys(Keys.ENTER)
                 return head.get_attribute("aria-sort") or "none"
@@ -87,7 +87,7 @@ class FirstLookTest(PageTest):
 class TableTest(PageTest):
     def test_sorting_up_down_and_back(self) -> None:
         name = "host ms/frame"  # 250, 500 and 1000, which letters would sort otherwise
-        values = [row["host_ms_median"] for row in read_fields(self.folder / "study" / "cells.csv")]
+        values = [row["host_ms_median"] for row in read_fields(self.folder / "study" / "configurations.csv")]
         self.assertEqual(self.column(name), values)
         self.assertEqual(self.press_heading(name), "ascending")
         self.assertEqual(self.column(name), sorted(values, key=float))
@@ -97,13 +97,13 @@ class TableTest(PageTest):
         self.assertEqual(self.column(name), values)
 
     def test_filter(self) -> None:
-        self.find('[data-filters="cells-table"]').send_keys("occl rl")
-        shown = [row.text for row in self.find_all("#cells-table tbody tr") if row.is_displayed()]
+        self.find('[data-filters="configurations-table"]').send_keys("occl rl")
+        shown = [row.text for row in self.find_all("#configurations-table tbody tr") if row.is_displayed()]
         self.assertEqual(len(shown), 1)
 
     def test_pointing_shows_all_digits(self) -> None:
-        row = read_fields(self.folder / "study" / "cells.csv")[0]
-        field = self.find(f'#cells-table td[data-value="{row["relmse"]}"]')
+        row = read_fields(self.folder / "study" / "configurations.csv")[0]
+        field = self.find(f'#configurations-table td[data-value="{row["relmse"]}"]')
         ActionChains(self.browser).move_to_element(field).perform()
         self.assertEqual(self.find(".tip").text, f"{row['relmse']} [{row['relmse_low']}, {row['relmse_high']}]")
 
@@ -114,14 +114,14 @@ class CurvesTest(PageTest):
         chart.send_keys(*keys)
         return self.find(".tip").text
 
-    def test_arrow_keys_walk_along_a_line_to_the_digits_of_cells_csv(self) -> None:
-        cell = read_fields(self.folder / "study" / "cells.csv")[0]
+    def test_arrow_keys_walk_along_a_line_to_the_digits_of_configurations_csv(self) -> None:
+        row = read_fields(self.folder / "study" / "configurations.csv")[0]
         self.assertIn("1 spp", self.tip_after(Keys.ARROW_RIGHT))
         lines = self.tip_after(*[Keys.ARROW_RIGHT] * 3).split("\n")
-        self.assertEqual(lines[0], cell["cell"])
-        self.assertEqual(float(lines[2].removeprefix("relMSE ")), float(cell["relmse"]))
+        self.assertEqual(lines[0], row["configuration"])
+        self.assertEqual(float(lines[2].removeprefix("relMSE ")), float(row["relmse"]))
         low, high = lines[3].removeprefix("95 %: ").split(" to ")
-        self.assertEqual((float(low), float(high)), (float(cell["relmse_low"]), float(cell["relmse_high"])))
+        self.assertEqual((float(low), float(high)), (float(row["relmse_low"]), float(row["relmse_high"])))
         self.assertIn("BSDF", self.tip_after(Keys.ARROW_DOWN))
 
     def test_pointing_at_a_marker_names_its_point(self) -> None:
@@ -148,7 +148,7 @@ class CurvesTest(PageTest):
         self.assertEqual(len(self.find_all("#curve-panels .floor")), 0)
         self.assertIn("MAPE", self.find("#curve-panels .chart").text)
 
-    def test_every_cell_is_a_point_of_speed_against_error(self) -> None:
+    def test_every_configuration_is_a_point_of_speed_against_error(self) -> None:
         self.assertEqual(len(self.find_all("#speed-plot .marker")), 6)
 
 
@@ -267,7 +267,7 @@ class ImagesTest(PageTest):
         self.assertIn("118", self.find("#firefly-list tbody").text)
 
     def test_the_name_of_a_row_shows_its_image(self) -> None:
-        link = self.find('#cells-table tr[data-key="occluded / BSDF"] a')
+        link = self.find('#configurations-table tr[data-key="occluded / BSDF"] a')
         link.send_keys(Keys.ENTER)
         self.painted("2 image 0")
         self.assertIn("B: scene=occluded,method=bsdf,seed=1, frame 8", self.find("#sources").text)

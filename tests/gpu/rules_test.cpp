@@ -1,8 +1,9 @@
 // The rules at work: what their tables approach in closed scenes whose incident radiance is known.
+#include "engine/accel/build_bvh.h"
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace {
 
 RenderSettings closed_settings(UpdateRule rule) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.max_bounces = 24;  // monte_carlo knows no more than what a path reaches
   settings.russian_roulette_start = 24;
@@ -71,8 +72,8 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
-// Beside the NEE of Goswami 2020, which counts no emission that a path meets, a ray still brings the direct
-// light at its end, and so on: Le / (1 - albedo) - Le.
+// Beside Goswami's NEE, which counts no emission that a path meets, a ray still brings the direct light at
+// its end, and so on: Le / (1 - albedo) - Le.
 TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
   RenderSettings settings = closed_settings(GetParam());
@@ -107,8 +108,8 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
   EXPECT_NEAR(mean_target(tracer), 2, 0.05);
 }
 
-// The NEE of Goswami 2020 traces no ray beyond a path's last event: of two, the first learns what is emitted
-// at the second, and what lamps send there.
+// Goswami's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
+// second, and what lamps send there.
 TEST(MonteCarloRule, CountsTheLightOfThePathsLastEvent) {
   RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
   settings.nee = Nee::two_ray;

@@ -1,16 +1,18 @@
 // Chi-squared: every direction sampler draws in proportion to the density that it states, on the device.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -170,7 +172,7 @@ class Stage {
 
   static RenderSettings make_settings(const Case& c) {
     RenderSettings settings;
-    settings.rl = report_table();
+    settings.rl = goswami_table();
     settings.width = settings.height = 16;
     settings.sampler = c.sampler;
     settings.rl.bsdf_fraction = c.bsdf_fraction;

@@ -1,5 +1,6 @@
 // No ray leaves a closed surface: neither between neighbouring triangles, nor from a point whose rounding put
 // it behind the wall next to it.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"

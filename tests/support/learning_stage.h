@@ -1,13 +1,14 @@
 // A small table over a lit floor, taught by hand.
 #pragma once
 
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ class LearningStage : public testing::Test {
  protected:
   LearningStage() {
     scene_ = lit_floor(0.8F, 10, 1, 1).scene;
-    settings_.rl = report_table();
+    settings_.rl = goswami_table();
     settings_.rl.sites_per_object = 4;
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     build();

@@ -95,7 +95,9 @@ TEST(ShaderLayers, IncludesStandBeforeAllElse) {
     std::ifstream stream(root / file);
     bool is_head = true;
     for (std::string line; std::getline(stream, line);) {
-      if (line.starts_with("#include")) EXPECT_TRUE(is_head) << file << ": " << line;
+      if (line.starts_with("#include")) {
+        EXPECT_TRUE(is_head) << file << ": " << line;
+      }
       is_head = is_head && (line.empty() || line.starts_with("//") || line.starts_with("#"));
     }
   }

@@ -1,7 +1,7 @@
 // Error against samples and against seconds, a pair of plots per scene.
 const [SPP, SECONDS, MEAN, LOW, HIGH, SEEDS, FLOOR] = [1, 2, 3, 4, 5, 6, 7];  // of a point: analysis/report/curves.py
 const metric = document.querySelector("#metric");
-const bandReach = 4, floorReach = 100;  // as in analysis/convergence_figure.py
+const bandReach = data.reach.band, floorReach = data.reach.floor;
 
 function span(values) { return [Math.min(...values), Math.max(...values)]; }
 
@@ -17,15 +17,15 @@ function errorRange(points, floors) {
   return widened([bottom, Math.max(high, ...bands.map(p => Math.min(p[HIGH], high * bandReach)))]);
 }
 
-function curveTip(cell, p, name) {
+function curveTip(configuration, p, name) {
   const interval = p[LOW] === null ? "" : `\n95 %: ${p[LOW]} to ${p[HIGH]}`;
-  return `${cell.cell}\n${p[SPP]} spp, ${p[SECONDS]} s\n${name} ${p[MEAN]}${interval}\n${p[SEEDS]} seed${p[SEEDS] === 1 ? "" : "s"}${p[FLOOR] ? ", at the reference's noise" : ""}`;
+  return `${configuration.configuration}\n${p[SPP]} spp, ${p[SECONDS]} s\n${name} ${p[MEAN]}${interval}\n${p[SEEDS]} seed${p[SEEDS] === 1 ? "" : "s"}${p[FLOOR] ? ", at the reference's noise" : ""}`;
 }
 
 class CurvePanel {
   constructor(holder, scene) {
     this.scene = scene;
-    this.cells = data.cells.filter(cell => cell.scene === scene);
+    this.configurations = data.configurations.filter(configuration => configuration.scene === scene);
     const pair = element("div", {class: "panels"});
     this.root = element("div", {}, element("h3", {}, scene), pair);
     holder.append(this.root);
@@ -42,17 +42,17 @@ class CurvePanel {
     this.root.hidden = sceneChoice.value !== "" && sceneChoice.value !== this.scene;
     if (this.root.hidden) return;
     const key = metric.value, name = data.metrics[key].split(" (")[0];
-    const curves = this.cells.filter(cell => data.curves[key][cell.cell])
-      .map(cell => ({cell, points: data.curves[key][cell.cell].filter(p => p[MEAN] > 0 && p[SECONDS] > 0)})).filter(one => one.points.length);
-    const shown = curves.filter(one => !hidden.has(one.cell.label));
+    const curves = this.configurations.filter(configuration => data.curves[key][configuration.configuration])
+      .map(configuration => ({configuration, points: data.curves[key][configuration.configuration].filter(p => p[MEAN] > 0 && p[SECONDS] > 0)})).filter(one => one.points.length);
+    const shown = curves.filter(one => !hidden.has(one.configuration.label));
     const ranged = (shown.length ? shown : curves).flatMap(one => one.points);
     const floors = data.floors[key]?.[this.scene] ?? [];
     for (const plot of this.all) {
       if (ranged.length) Object.assign(plot.spec, {y: errorRange(ranged, floors), x: widened(span(ranged.map(p => p[plot.column])), 0.03)});
       Object.assign(plot.spec, {floors, yName: data.metrics[key]});
-      plot.series = shown.map(({cell, points}) => ({
-        label: cell.label, look: look(data.labels.indexOf(cell.label)), line: true,
-        points: points.map(p => ({x: p[plot.column], y: p[MEAN], low: p[LOW], high: p[HIGH], hollow: p[FLOOR], tip: curveTip(cell, p, name)})),
+      plot.series = shown.map(({configuration, points}) => ({
+        label: configuration.label, look: look(data.labels.indexOf(configuration.label)), line: true,
+        points: points.map(p => ({x: p[plot.column], y: p[MEAN], low: p[LOW], high: p[HIGH], hollow: p[FLOOR], tip: curveTip(configuration, p, name)})),
       }));
       plot.at = null;
       plot.draw();

@@ -13,7 +13,7 @@ class Pane {
     const {gallery, halves} = this.viewer;
     this.index = index;
     this.picture = gallery.pictures[index];
-    const shownError = this.viewer.show === "error" && this.picture.reference !== null && this.picture.cell;
+    const shownError = this.viewer.show === "error" && this.picture.reference !== null && this.picture.configuration;
     this.name.textContent = this.picture.name + (shownError ? ": error" : "");
     const reference = shownError ? halves[this.picture.reference] : null;
     await Promise.all([halves[index].load(), reference?.load()]);

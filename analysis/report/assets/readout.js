@@ -34,7 +34,7 @@ class Readout {
       const rgb = halves[i].rgb(...pixel);
       rgb.forEach((value, c) => fields[c].textContent = exactly(value));
       const reference = halves[picture.reference];
-      fields[3].textContent = reference?.values && picture.cell ? short(pixelError(rgb, reference.rgb(...pixel))) : "";
+      fields[3].textContent = reference?.values && picture.configuration ? short(pixelError(rgb, reference.rgb(...pixel))) : "";
       colour.style.background = `rgb(${halves[i].bits(...pixel).map(bits => table[bits])})`;
     });
   }

@@ -1,4 +1,4 @@
-// Speed against error: every cell a point; along a dotted line error times time is the same.
+// Speed against error: every configuration a point; along a dotted line error times time is the same.
 const speedHolder = document.querySelector("#speed-plot");
 
 class SpeedPanel {
@@ -13,7 +13,7 @@ class SpeedPanel {
     if (data.figures.y.relmse) this.y.value = "relmse";
     const figure = element("figure");
     holder.append(figure);
-    this.plot = new Plot(figure, {title: "speed against error, a point per cell", x: [1, 2], y: [1, 2], height: 430, 
+    this.plot = new Plot(figure, {title: "speed against error, a point per configuration", x: [1, 2], y: [1, 2], height: 430, 
       guides: (plot, parent) => { drawEfficiency(plot, parent); this.drawFronts(plot, parent); }});
     this.all = [this.plot];
     for (const control of [this.scene, this.x, this.y]) control.addEventListener("change", () => this.redraw());
@@ -22,22 +22,22 @@ class SpeedPanel {
   redraw() {
     const [xKey, yKey] = [this.x.value, this.y.value];
     const [xFigure, yFigure] = [data.figures.x[xKey], data.figures.y[yKey]];
-    const cells = data.cells.filter(cell => (!this.scene.value || cell.scene === this.scene.value) && cell.figures[xKey]?.[0] > 0 && cell.figures[yKey]?.[0] > 0);
-    const shown = cells.filter(cell => !hidden.has(cell.label));
-    const ends = (key, from) => from.flatMap(cell => {
-      const [mean, low, high] = cell.figures[key].map(Number);
+    const configurations = data.configurations.filter(configuration => (!this.scene.value || configuration.scene === this.scene.value) && configuration.figures[xKey]?.[0] > 0 && configuration.figures[yKey]?.[0] > 0);
+    const shown = configurations.filter(configuration => !hidden.has(configuration.label));
+    const ends = (key, from) => from.flatMap(configuration => {
+      const [mean, low, high] = configuration.figures[key].map(Number);
       return low > 0 ? [mean, Math.max(low, mean / bandReach), Math.min(high, mean * bandReach)] : [mean];
     });
-    const ranged = shown.length ? shown : cells;
+    const ranged = shown.length ? shown : configurations;
     if (ranged.length) Object.assign(this.plot.spec, {x: widened(span(ends(xKey, ranged)), 0.08), y: widened(span(ends(yKey, ranged)), 0.08)});
     Object.assign(this.plot.spec, {xName: xFigure.name, yName: yFigure.name});
-    this.fronts = data.scenes.map(scene => front(shown.filter(cell => cell.scene === scene).map(cell => [cell.figures[xKey], cell.figures[yKey]].map(([mean]) => Number(mean)))));
-    this.plot.series = shown.map(cell => {
-      const [x, xLow, xHigh] = cell.figures[xKey].map(Number), [y, low, high] = cell.figures[yKey].map(Number);
+    this.fronts = data.scenes.map(scene => front(shown.filter(configuration => configuration.scene === scene).map(configuration => [configuration.figures[xKey], configuration.figures[yKey]].map(([mean]) => Number(mean)))));
+    this.plot.series = shown.map(configuration => {
+      const [x, xLow, xHigh] = configuration.figures[xKey].map(Number), [y, low, high] = configuration.figures[yKey].map(Number);
       const says = (name, [mean, low, high]) => `${name} ${mean}${low ? `\n95 %: ${low} to ${high}` : ""}`;
-      const tip = `${cell.cell}\n${says(xFigure.name, cell.figures[xKey])}\n${says(yFigure.name, cell.figures[yKey])}${cell.floor ? "\nat the reference's noise" : ""}`;
-      return {label: cell.label, look: look(data.labels.indexOf(cell.label)), line: false, points: [{x, y, low, high, xLow, xHigh, tip, hollow: cell.floor,
-        text: data.scenes.length > 1 && !this.scene.value ? cell.scene : shown.length <= 16 ? cell.label : ""}]};
+      const tip = `${configuration.configuration}\n${says(xFigure.name, configuration.figures[xKey])}\n${says(yFigure.name, configuration.figures[yKey])}${configuration.floor ? "\nat the reference's noise" : ""}`;
+      return {label: configuration.label, look: look(data.labels.indexOf(configuration.label)), line: false, points: [{x, y, low, high, xLow, xHigh, tip, hollow: configuration.floor,
+        text: data.scenes.length > 1 && !this.scene.value ? configuration.scene : shown.length <= 16 ? configuration.label : ""}]};
     });
     this.plot.at = null;
     this.plot.draw();

@@ -93,7 +93,7 @@ function viewerControls(viewer) {
 
 // The name of a row shows its image as B.
 function linkToImages(viewer, row) {
-  const isRow = picture => picture.cell === row.dataset.key;
+  const isRow = picture => picture.configuration === row.dataset.key;
   const gallery = data.galleries.findIndex(({pictures}) => pictures.some(isRow));
   if (gallery < 0) return;
   const name = row.querySelector("th .shown"), link = element("a", {href: "#images", "data-tip": "show its image"}, name.textContent);
@@ -112,5 +112,5 @@ if (viewerRoot) {
   stageKeys(viewer);
   viewerControls(viewer);
   viewer.set({});
-  for (const row of document.querySelectorAll("#cells-table tbody tr")) linkToImages(viewer, row);
+  for (const row of document.querySelectorAll("#configurations-table tbody tr")) linkToImages(viewer, row);
 }
