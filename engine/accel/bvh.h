@@ -1,4 +1,4 @@
-// Bounding volume hierarchies: two ways to build one, with the same nodes.
+// Bounding volume hierarchies: the same nodes, however they were built.
 #pragma once
 
 #include "engine/core/settings.h"
@@ -30,16 +30,5 @@ struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
 };
-
-// The report's (section 4.1): split at the median of the triangles' centres along the longest axis.
-// `leaf_size`: most triangles of a leaf, 1..15. Throws Error for a scene without triangles.
-Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size);
-
-// Split where the surface area heuristic expects the least work (Wald 2007, "On fast Construction of
-// SAH-based Bounding Volume Hierarchies": binned). The same whatever the number of threads. As above.
-Bvh build_sah_bvh(const Scene& scene, std::uint32_t leaf_size);
-
-// What a tracer uses: small leaves, as every ray of a SIMD group pays for the longest leaf among them.
-Bvh build_bvh(const Scene& scene, BvhKind kind);
 
 }  // namespace qtrace

@@ -1,4 +1,4 @@
-#include "engine/accel/bvh.h"
+#include "engine/accel/median_bvh.h"
 #include "engine/accel/bvh_input.h"
 
 #include "engine/accel/bounds.h"

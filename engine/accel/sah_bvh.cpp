@@ -1,5 +1,5 @@
+#include "engine/accel/sah_bvh.h"
 #include "engine/accel/bounds.h"
-#include "engine/accel/bvh.h"
 #include "engine/accel/bvh_input.h"
 #include "engine/accel/reinsertion.h"
 

@@ -16,8 +16,8 @@ struct KnobInfo {
   std::string_view help;
   double min = -std::numeric_limits<double>::infinity();  // inclusive; numbers only
   double max = std::numeric_limits<double>::infinity();   // inclusive; numbers only
-  // Of a knob that came after results had been kept: what programs without it did, as JSON. With that value it
-  // does not enter hashes, so that what was kept is found again. Empty: it always enters them.
+  // Of a knob that came after results had been kept: what programs without it did, as JSON. With that value
+  // it does not enter hashes, so that what was kept is found again. Empty: it always enters them.
   std::string_view implied = "";
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/accel/bvh.h"
-#include "engine/gpu/buffer.h"
 #include "engine/device_scene/wide_nodes.h"
+#include "engine/gpu/buffer.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/accel/bvh.h"
-#include "engine/gpu/buffer.h"
 #include "engine/device_scene/light_table.h"
 #include "engine/device_scene/node_buffers.h"
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/structs.h"
 #include "engine/scene/scene.h"
 

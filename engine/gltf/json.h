@@ -1,5 +1,4 @@
-// The JSON of a scene file, checked before tinygltf sees it: tinygltf takes the default where a property
-// has the wrong type, wraps integers that are too large, and leaves most indices unchecked.
+// The JSON of a scene file.
 #pragma once
 
 #include "engine/gltf/source.h"
@@ -10,11 +9,7 @@
 
 namespace qtrace::gltf {
 
+// Throws Error for what is no JSON, nests too deep, or is no glTF 2.
 nlohmann::json parse_json(const Source& source, const std::string& text);
-
-// Checks the type of every property that the loader reads (gltf_rules.h), and that every index points at
-// something.
-// Turns integers that stand for numbers into floating point, for tinygltf would wrap them.
-void check_json(const Source& source, nlohmann::json& document);
 
 }  // namespace qtrace::gltf

@@ -10,6 +10,7 @@
 #include "engine/gltf/mesh.h"
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
+#include "engine/gltf/schema.h"
 
 #include <algorithm>
 

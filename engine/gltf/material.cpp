@@ -41,8 +41,9 @@ void read_specular(const tinygltf::Material& file, const Factors& factors, Mater
     material.specular = factors.scalar("specularFactor", value->GetNumberAsDouble(), 1);
   }
   if (const tinygltf::Value* value = find_property(file, extension, "specularColorFactor")) {
-    const auto number = [&](int i) { return value->Get(i).GetNumberAsDouble(); };
-    material.specular_color = factors.rgb("specularColorFactor", {number(0), number(1), number(2)}, kNoLimit);
+    const std::vector<double> color{value->Get(0).GetNumberAsDouble(), value->Get(1).GetNumberAsDouble(),
+                                    value->Get(2).GetNumberAsDouble()};
+    material.specular_color = factors.rgb("specularColorFactor", color, kNoLimit);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/gltf/json.h"
+#include "engine/gltf/schema.h"
 
 #include "engine/gltf/rules.h"
 

@@ -1,7 +1,7 @@
 #include "engine/gpu/buffer.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/fetch.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
@@ -47,7 +47,7 @@ std::size_t limit(GLenum name) {
 
 std::size_t most_buffer_bytes(BufferUse use) {
   std::size_t most = std::numeric_limits<std::size_t>::max();
-  if (use.storage || best_fetch() == Fetch::storage) most = limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  if (use.storage || driver_choices().fetch == Fetch::storage) most = limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   if (use.texels == Texels::none) return most;
   return std::min(most, limit(GL_MAX_TEXTURE_BUFFER_SIZE) * format_of(use.texels).bytes);
 }

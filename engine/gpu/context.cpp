@@ -1,6 +1,7 @@
 #include "engine/gpu/context.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/driver_probe.h"
 #include "engine/gpu/egl.h"
 
 #include <epoxy/gl.h>
@@ -71,11 +72,20 @@ Context::Context(const std::string& choice) {
   state_ = std::make_unique<State>(list_platforms().at(index), devices[index]);
   check(state_->egl.info().problem.empty(), "device {} ({}) worked and then did not: {}", index,
         devices[index].renderer, state_->egl.info().problem);
+  use(state_->device.choices);
+  state_->device.loop_limit = probe_loop_limit();
 }
 
 Context::~Context() = default;
 
 const DeviceInfo& Context::device() const { return state_->device; }
+
+void Context::use(const DriverChoices& choices) {
+  check(offers(choices.fetch), "device {} ({}) does not offer as many units as shaders fetch from by {}",
+        state_->device.index, state_->device.renderer, fetch_name(choices.fetch));
+  state_->device.choices = choices;
+  set_driver_choices(choices);
+}
 
 ProgramCache& Context::programs() const { return state_->programs; }
 
@@ -103,6 +113,7 @@ void Context::renew() {
   state_ = std::make_unique<State>(platform, device);
   check(state_->egl.info().problem.empty(), "device {} ({}) was lost and gives no new context: {}",
         device.index, device.renderer, state_->egl.info().problem);
+  set_driver_choices(device.choices);
 }
 
 }  // namespace qtrace::gpu

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/check.h"
+#include "engine/gpu/device_info.h"
 #include "engine/gpu/program_cache.h"
 
 #include <memory>
@@ -9,18 +10,6 @@
 #include <vector>
 
 namespace qtrace::gpu {
-
-struct DeviceInfo {
-  int index = 0;           // position in list_devices()
-  std::string renderer;    // GL_RENDERER
-  std::string vendor;      // GL_VENDOR
-  std::string gl_version;  // GL_VERSION: OpenGL and driver version
-  std::string platform;    // how EGL reached it: "device" or "surfaceless"
-  bool software = false;   // computes on the CPU
-  std::string fetch;       // how shaders fetch buffers that they only read: "texture", "image" or "storage"
-  unsigned work_threads = 1;  // among which the driver splits a dispatch by place (driver.h)
-  std::string problem;        // why it cannot be used; empty where it can
-};
 
 // Everything that EGL offers, usable or not.
 std::vector<DeviceInfo> list_devices();
@@ -42,6 +31,9 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const DeviceInfo& device() const;
+  // From now on shaders are compiled by these; at first by usual_choices(). Throws Error where the device
+  // does not offer them.
+  void use(const DriverChoices& choices);
   ProgramCache& programs() const;  // for as long as the context is not renewed
   void finish() const;             // returns when all work is done
   void check_alive() const;  // throws ContextLost after a reset of the device, where the driver tells of it

@@ -1,43 +1,42 @@
 #include "engine/gpu/driver.h"
 
-#include "engine/gpu/fetch.h"
+#include "engine/gpu/llvmpipe.h"
 
-#include <epoxy/gl.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdlib>
-#include <string>
-#include <thread>
+#include <utility>
 
 namespace qtrace::gpu {
 namespace {
 
-// LP_MAX_THREADS of Mesa 22.3.
-constexpr unsigned kMostLlvmpipeThreads = 16;
-
-// As llvmpipe counts them. 0 of LP_NUM_THREADS: the calling thread does everything.
-unsigned llvmpipe_threads() {
-  const char* asked = std::getenv("LP_NUM_THREADS");
-  const bool is_number = asked != nullptr && std::isdigit(static_cast<unsigned char>(*asked)) != 0;
-  const auto count = is_number ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10))
-                               : std::thread::hardware_concurrency();
-  return std::clamp(count, 1U, kMostLlvmpipeThreads);
-}
+// Beside OpenGL's own current context, and like that one for each thread.
+thread_local DriverChoices current;
 
 }  // namespace
 
-bool is_llvmpipe() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return renderer != nullptr && std::string(renderer).find("llvmpipe") != std::string::npos;
+std::string stack_name(StackPlace stack) { return stack == StackPlace::memory ? "memory" : "registers"; }
+
+std::optional<StackPlace> stack_named(std::string_view name) {
+  for (const StackPlace stack : {StackPlace::memory, StackPlace::registers}) {
+    if (stack_name(stack) == name) return stack;
+  }
+  return std::nullopt;
 }
 
-unsigned work_threads() { return is_llvmpipe() ? llvmpipe_threads() : 1; }
+DriverChoices usual_choices() {
+  if (!is_llvmpipe()) return {};
+  return {Fetch::image, StackPlace::registers, llvmpipe_threads()};
+}
 
-Defines for_driver(Defines defines) {
-  defines.try_emplace("FETCH", std::to_string(static_cast<int>(best_fetch())));
-  defines.try_emplace("WORK_THREADS", std::to_string(work_threads()));
+const DriverChoices& driver_choices() { return current; }
+
+void set_driver_choices(const DriverChoices& choices) { current = choices; }
+
+Defines with_choices(Defines defines, const DriverChoices& choices) {
+  defines.try_emplace("FETCH", std::to_string(static_cast<int>(choices.fetch)));
+  defines.try_emplace("STACK", std::to_string(static_cast<int>(choices.stack)));
+  defines.try_emplace("WORK_THREADS", std::to_string(choices.work_threads));
   return defines;
 }
+
+Defines for_driver(Defines defines) { return with_choices(std::move(defines), driver_choices()); }
 
 }  // namespace qtrace::gpu

@@ -1,8 +1,6 @@
 #include "engine/gpu/egl.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/driver.h"
-#include "engine/gpu/fetch.h"
 
 #include <epoxy/gl.h>
 
@@ -113,8 +111,7 @@ void EglContext::describe(const Platform& platform) {
   info_.vendor = gl_string(GL_VENDOR);
   info_.gl_version = gl_string(GL_VERSION);
   info_.software = platform.software_device || is_software_renderer(info_.renderer);
-  info_.fetch = fetch_name(best_fetch());
-  info_.work_threads = work_threads();
+  info_.choices = usual_choices();
 }
 
 EglContext::~EglContext() {

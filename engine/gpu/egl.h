@@ -1,7 +1,7 @@
 // EGL displays that need no screen, and OpenGL contexts on them.
 #pragma once
 
-#include "engine/gpu/context.h"
+#include "engine/gpu/device_info.h"
 
 #include <epoxy/egl.h>
 

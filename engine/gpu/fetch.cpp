@@ -1,13 +1,10 @@
 #include "engine/gpu/fetch.h"
 
-#include "engine/gpu/driver.h"
 #include "engine/gpu/structs.h"
 
 #include <epoxy/gl.h>
 
 namespace qtrace::gpu {
-
-Fetch best_fetch() { return is_llvmpipe() ? Fetch::image : Fetch::texture; }
 
 bool offers(Fetch fetch) {
   if (fetch != Fetch::image) return true;
@@ -26,6 +23,13 @@ std::string fetch_name(Fetch fetch) {
       return "storage";
   }
   return "";
+}
+
+std::optional<Fetch> fetch_named(std::string_view name) {
+  for (const Fetch fetch : {Fetch::texture, Fetch::image, Fetch::storage}) {
+    if (fetch_name(fetch) == name) return fetch;
+  }
+  return std::nullopt;
 }
 
 }  // namespace qtrace::gpu

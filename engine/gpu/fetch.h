@@ -2,21 +2,19 @@
 // the same.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace qtrace::gpu {
 
 // In the order of the values in shaders/shared/fetch.glsl.
 enum class Fetch { texture, image, storage };
 
-// Of the current context. llvmpipe turns loads of storage into loops over the lanes of a SIMD register, and
-// loads of images into gathers (./dev bench --variant NAME:FETCH=0,1,2 compares them); GPUs have a cache for
-// textures.
-Fetch best_fetch();
-
 // Whether the current context has as many units as shaders fetch from in this way (NVIDIA: 8 of images).
 bool offers(Fetch fetch);
 
 std::string fetch_name(Fetch fetch);
+std::optional<Fetch> fetch_named(std::string_view name);
 
 }  // namespace qtrace::gpu

@@ -22,6 +22,7 @@ class Assembler {
           "shader {}: its first line is not a #version", name);
     source_.text = text.substr(0, first_line + 1);
     for (const auto& [key, value] : defines) source_.text += fmt::format("#define {} {}\n", key, value);
+    emitted_.push_back(true);
     append(0, text.substr(first_line + 1), 2);
   }
 
@@ -35,6 +36,8 @@ class Assembler {
       if (current.starts_with("#include")) {
         include(file, current, line);
       } else {
+        if (current.starts_with("#if")) ++conditions_;
+        if (current.starts_with("#endif")) --conditions_;
         source_.text += current + "\n";
       }
     }
@@ -50,14 +53,32 @@ class Assembler {
     check(open != std::string::npos && close > open, "{}:{}: an include reads #include \"file\"",
           source_.files[file], line);
     const std::string name = directive.substr(open + 1, close - open - 1);
-    if (std::ranges::find(source_.files, name) == source_.files.end()) {
+    const auto known = std::ranges::find(source_.files, name);
+    const auto included = static_cast<std::size_t>(known - source_.files.begin());
+    if (known == source_.files.end()) {
       source_.files.push_back(name);
-      append(source_.files.size() - 1, shader_file(name), 1);
+      emitted_.push_back(false);
     }
+    if (!emitted_[included]) emit(included);
     mark(file, line + 1);
   }
 
+  // Where a condition stands around an include, its text may be left out there and wanted later: it is put in
+  // again until it stands under no condition, and a guard takes it once.
+  void emit(std::size_t file) {
+    check(std::ranges::find(open_, file) == open_.end(), "shader {} includes itself", source_.files[file]);
+    if (conditions_ == 0) emitted_[file] = true;
+    source_.text += fmt::format("#ifndef INCLUDED_{0}\n#define INCLUDED_{0}\n", file);
+    open_.push_back(file);
+    append(file, shader_file(source_.files[file]), 1);
+    open_.pop_back();
+    source_.text += "#endif\n";
+  }
+
   ShaderSource source_;
+  std::vector<bool> emitted_;      // of source_.files: under no condition
+  std::vector<std::size_t> open_;  // files that are being put in
+  int conditions_ = 0;             // around the current line
 };
 
 }  // namespace

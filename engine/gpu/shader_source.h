@@ -20,7 +20,7 @@ struct ShaderSource {
 std::string_view shader_file(std::string_view name);
 
 // `text`, whose first line is its #version, with `defines` after that line and every #include "file" replaced
-// by shaders/file, once each. `name` is what errors call it.
+// by shaders/file, once each whatever #if stands around it. `name` is what errors call it.
 ShaderSource assemble(const std::string& name, std::string_view text, const Defines& defines);
 
 // A driver's log with its places replaced: "3:300012(5): error" (Mesa) and "3(300012) : error" (NVIDIA)

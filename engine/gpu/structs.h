@@ -12,6 +12,7 @@ namespace qtrace::gpu {
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
+using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 

@@ -123,10 +123,12 @@ double AtrousFilter::mean_level(const RadianceImage& image) const {
 void AtrousFilter::run_pass(int iteration) {
   const auto width = static_cast<gpu::uint>(first_hit_.width);
   const auto height = static_cast<gpu::uint>(first_hit_.height);
-  const gpu::FilterPass constants{
-      gpu::uvec4(width, height, 1U << iteration, 0),
-      gpu::vec4(falloff(std::ldexp(settings_.sigma_radiance, -iteration)), falloff(settings_.sigma_normal),
-                falloff(settings_.sigma_position), 0)};
+  gpu::FilterPass constants{};
+  constants.image_size = gpu::uvec2(width, height);
+  constants.spacing = 1U << iteration;
+  constants.radiance_falloff = falloff(std::ldexp(settings_.sigma_radiance, -iteration));
+  constants.normal_falloff = falloff(settings_.sigma_normal);
+  constants.position_falloff = falloff(settings_.sigma_position);
   constants_.write(0, &constants, sizeof(constants));
   constants_.bind_uniform(gpu::BINDING_PARAMETERS);
   guides_.bind_storage(gpu::BINDING_FILTER_GUIDES);

@@ -173,7 +173,7 @@ CellBuffers::CellBuffers(const CellGrid& grid)
       lists_("lists of sites", 0, kListUse) {}
 
 void CellBuffers::bind() const {
-  cells_.bind_fetched(gpu::UNIT_SITES);  // or UNIT_GRID_ROWS
+  cells_.bind_fetched(gpu::UNIT_SITES);  // or UNIT_GRID_STATES
   lists_.bind_fetched(gpu::UNIT_SITE_LISTS);
 }
 

@@ -20,7 +20,7 @@ namespace qtrace {
 
 inline constexpr std::uint32_t kNoObject = 0xffffffff;
 
-// What row i of a table stands for.
+// What state i of a table stands for.
 struct CellState {
   glm::vec3 position{0.0F};
   glm::vec3 normal{0.0F};    // unit, out of the surface on the side that the cell is on

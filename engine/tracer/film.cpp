@@ -10,18 +10,18 @@
 namespace qtrace {
 namespace {
 
-std::uint64_t counter(const gpu::Statistics& block, gpu::uint statistic) {
-  return (std::uint64_t{block.counters[2 * statistic + 1]} << 32) | block.counters[2 * statistic];
+std::uint64_t counter(const gpu::Counters& block, gpu::uint index) {
+  return (std::uint64_t{block.words[2 * index + 1]} << 32) | block.words[2 * index];
 }
 
-gpu::Statistics read_block(const gpu::Buffer& buffer) {
-  gpu::Statistics block;
+gpu::Counters read_block(const gpu::Buffer& buffer) {
+  gpu::Counters block;
   buffer.read(0, &block, sizeof(block));
   return block;
 }
 
-void check_loops_of(const gpu::Statistics& block) {
-  if (counter(block, gpu::STATISTIC_LOOPS_CUT) == 0) return;
+void check_loops_of(const gpu::Counters& block) {
+  if (counter(block, gpu::COUNTER_LOOPS_CUT) == 0) return;
   fail(
       "the driver cut a shader loop short at pixel ({}, {}), so the image would be wrong: this device allows "
       "too few loop iterations for these settings; search sites by lists, lower max_bounces, or split large "
@@ -71,7 +71,7 @@ Film::Film(int width, int height, gpu::ProgramCache& programs)
           "pixel outliers",
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
           gpu::also_fetched(gpu::Texels::uint4)),
-      statistics_("statistics", sizeof(gpu::Statistics)),
+      counters_("statistics", sizeof(gpu::Counters)),  // named so in saved states
       accumulate_(programs.get("passes/accumulate.comp", {})) {}
 
 void Film::bind() const {
@@ -79,12 +79,12 @@ void Film::bind() const {
   samples_.bind_fetched(gpu::UNIT_SAMPLES);
   outliers_.bind_storage(gpu::BINDING_OUTLIERS);
   outliers_.bind_fetched(gpu::UNIT_OUTLIERS);
-  statistics_.bind_storage(gpu::BINDING_STATISTICS);
+  counters_.bind_storage(gpu::BINDING_COUNTERS);
 }
 
 void Film::start_frame() {
   constexpr std::size_t kCounterBytes = 2 * sizeof(gpu::uint);
-  statistics_.clear(offsetof(gpu::Statistics, counters), gpu::STATISTIC_PER_FRAME * kCounterBytes);
+  counters_.clear(offsetof(gpu::Counters, words), gpu::COUNTER_PER_FRAME * kCounterBytes);
 }
 
 void Film::accumulate(std::uint32_t frame) {
@@ -100,7 +100,7 @@ void Film::reset() {
   samples_.clear();
   odd_sums_.clear();
   even_sums_.clear();
-  statistics_.clear();
+  counters_.clear();
   const auto pixels = outliers_.bytes() / sizeof(gpu::PixelOutliers);
   set_firefly_thresholds(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
 }
@@ -113,30 +113,30 @@ void Film::set_firefly_thresholds(std::span<const float> thresholds) {
   outliers_.write(0, outliers.data(), outliers_.bytes());
 }
 
-void Film::check_loops() const { check_loops_of(read_block(statistics_)); }
+void Film::check_loops() const { check_loops_of(read_block(counters_)); }
 
-FrameCounters Film::statistics() const {
-  const gpu::Statistics block = read_block(statistics_);
+FrameCounters Film::counters() const {
+  const gpu::Counters block = read_block(counters_);
   check_loops_of(block);
   FrameCounters s;
   s.paths = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-  s.rays = counter(block, gpu::STATISTIC_RAYS);
-  s.path_segments = counter(block, gpu::STATISTIC_SEGMENTS);
-  s.zero_paths = counter(block, gpu::STATISTIC_ZERO_PATHS);
-  s.cell_lookups = counter(block, gpu::STATISTIC_LOOKUPS);
-  s.cell_fallbacks = counter(block, gpu::STATISTIC_FALLBACKS);
-  s.non_finite = counter(block, gpu::STATISTIC_NON_FINITE);
-  s.table_updates = counter(block, gpu::STATISTIC_UPDATES);
-  s.saturated_updates = counter(block, gpu::STATISTIC_SATURATED);
-  s.fireflies = counter(block, gpu::STATISTIC_FIREFLIES);
-  s.clamped_samples = counter(block, gpu::STATISTIC_CLAMPED);
+  s.rays = counter(block, gpu::COUNTER_RAYS);
+  s.path_segments = counter(block, gpu::COUNTER_SEGMENTS);
+  s.zero_paths = counter(block, gpu::COUNTER_ZERO_PATHS);
+  s.cell_lookups = counter(block, gpu::COUNTER_LOOKUPS);
+  s.cell_fallbacks = counter(block, gpu::COUNTER_FALLBACKS);
+  s.non_finite = counter(block, gpu::COUNTER_NON_FINITE);
+  s.table_updates = counter(block, gpu::COUNTER_UPDATES);
+  s.saturated_updates = counter(block, gpu::COUNTER_SATURATED);
+  s.fireflies = counter(block, gpu::COUNTER_FIREFLIES);
+  s.clamped_samples = counter(block, gpu::COUNTER_CLAMPED);
   return s;
 }
 
 std::vector<NonFiniteSample> Film::non_finite_samples() const {
-  const gpu::Statistics block = read_block(statistics_);
+  const gpu::Counters block = read_block(counters_);
   const auto stored =
-      std::min<std::uint64_t>(counter(block, gpu::STATISTIC_ALL_NON_FINITE), gpu::MAX_LOCATIONS);
+      std::min<std::uint64_t>(counter(block, gpu::COUNTER_ALL_NON_FINITE), gpu::MAX_LOCATIONS);
   std::vector<NonFiniteSample> samples;
   for (std::uint64_t i = 0; i < stored; ++i) {
     samples.push_back({block.locations[i].x, block.locations[i].y, block.locations[i].z});
@@ -174,6 +174,6 @@ std::array<RadianceImage, 2> Film::halves(std::uint32_t frames) const {
           image_of(even_sums_.read_all<gpu::PixelSum>(), width_, height_, frames / 2)};
 }
 
-std::vector<gpu::Buffer*> Film::gathered() { return {&odd_sums_, &even_sums_, &outliers_, &statistics_}; }
+std::vector<gpu::Buffer*> Film::gathered() { return {&odd_sums_, &even_sums_, &outliers_, &counters_}; }
 
 }  // namespace qtrace

@@ -27,7 +27,7 @@ class Film {
   void set_firefly_thresholds(std::span<const float> thresholds);
 
   // These wait for enqueued work and throw Error where the driver cut a loop of a shader short.
-  FrameCounters statistics() const;
+  FrameCounters counters() const;
   std::vector<NonFiniteSample> non_finite_samples() const;  // ordered by frame, then position
   Outliers outliers() const;
   RadianceImage radiance(std::uint32_t frames) const;
@@ -38,8 +38,7 @@ class Film {
   std::vector<gpu::Buffer*> gathered();
 
   std::size_t bytes() const {
-    return samples_.bytes() + odd_sums_.bytes() + even_sums_.bytes() + outliers_.bytes() +
-           statistics_.bytes();
+    return samples_.bytes() + odd_sums_.bytes() + even_sums_.bytes() + outliers_.bytes() + counters_.bytes();
   }
 
  private:
@@ -49,7 +48,7 @@ class Film {
   gpu::Buffer odd_sums_;
   gpu::Buffer even_sums_;
   gpu::Buffer outliers_;
-  gpu::Buffer statistics_;
+  gpu::Buffer counters_;
   std::shared_ptr<gpu::Program> accumulate_;
 };
 

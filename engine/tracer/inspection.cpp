@@ -1,7 +1,8 @@
 #include "engine/tracer/inspection.h"
 
-#include "engine/gpu/program.h"
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
+#include "engine/gpu/program.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/limits.h"
@@ -40,20 +41,21 @@ class Sums {
   void add(const std::vector<gpu::Incident>& incidents) {
     for (std::size_t i = 0; i < incidents.size(); ++i) {
       const gpu::Incident& incident = incidents[i];
-      if (incident.bins.y == gpu::NO_BIN) continue;
+      if (incident.path_bin == gpu::NO_BIN) continue;
       const glm::dvec3 radiance(incident.radiance);
       radiance_[i] += radiance;
       ++paths_[i];
-      bin_radiance_[incident.bins.y] += (radiance.r + radiance.g + radiance.b) / 3;
-      ++bin_paths_[incident.bins.y];
-      cosine_[incident.bins.y] = static_cast<double>(incident.radiance.w);
+      bin_radiance_[incident.path_bin] += (radiance.r + radiance.g + radiance.b) / 3;
+      ++bin_paths_[incident.path_bin];
+      cosine_[incident.path_bin] = static_cast<double>(incident.bin_cosine);
     }
   }
 
   Hemisphere means(int size, const std::vector<gpu::Incident>& incidents) const {
     Hemisphere result{size, {}, {}, {}, cosine_};
     for (std::size_t i = 0; i < incidents.size(); ++i) {
-      result.bin.push_back(incidents[i].bins.x == gpu::NO_BIN ? -1 : static_cast<int>(incidents[i].bins.x));
+      result.bin.push_back(
+          incidents[i].centre_bin == gpu::NO_BIN ? -1 : static_cast<int>(incidents[i].centre_bin));
       result.radiance.push_back(paths_[i] > 0 ? radiance_[i] / paths_[i] : glm::dvec3(0));
     }
     for (std::size_t b = 0; b < bin_paths_.size(); ++b) {
@@ -113,9 +115,9 @@ Inspection& Inspection::operator=(Inspection&&) noexcept = default;
 
 const std::vector<CellState>& Inspection::cells() const { return state_->cells.states(); }
 
-std::size_t Inspection::columns() const {
+std::size_t Inspection::actions() const {
   const gpu::SceneFeatures& features = state_->buffers.features();
-  return table_columns(effective_settings(state_->settings, features), features);
+  return table_actions(effective_settings(state_->settings, features), features);
 }
 
 std::vector<int> Inspection::pixel_cells() const {

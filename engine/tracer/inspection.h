@@ -36,7 +36,7 @@ class Inspection {
   Inspection& operator=(Inspection&&) noexcept;
 
   const std::vector<CellState>& cells() const;
-  std::size_t columns() const;  // of the table's rows
+  std::size_t actions() const;  // of each of the table's states
 
   // Row of the table that belongs to what each pixel's centre shows, -1 where there is none.
   std::vector<int> pixel_cells() const;

@@ -2,9 +2,8 @@
 
 #include "engine/cells/site_counts.h"
 #include "engine/core/check.h"
-#include "engine/gpu/buffer.h"
-#include "engine/gpu/driver.h"
 #include "engine/device_scene/scene_buffers.h"
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/learning_schedule.h"
@@ -17,15 +16,14 @@
 namespace qtrace {
 namespace {
 
-constexpr int kLoopBudget = 65535;
-constexpr int kLoopsPerColumn = 3;     // of learn.comp: visits, targets, distribution
+constexpr int kLoopsPerAction = 3;     // of learn.comp: visits, targets, distribution
 constexpr int kSitesPerIteration = 4;  // of the linear search in voronoi.glsl
 // Turns of the search through a tree of sites, for each of its levels. Two to three are usual, twenty were
 // seen; no bound below the number of sites holds everywhere, and a search that is cut is detected
 // (loop_was_cut).
 constexpr int kTurnsPerLevel = 20;
-// Registers of an invocation spill to memory for the lessons of monte_carlo.glsl, 44 bytes for each.
-constexpr int kMostLessons = 64;
+// Registers of an invocation spill to memory for the vertices of monte_carlo.glsl, 44 bytes for each.
+constexpr int kMostVertices = 64;
 
 // Turns of a loop that one search for a cell may take.
 int search_turns(const Scene& scene, const RlSettings& settings) {
@@ -39,22 +37,23 @@ int search_turns(const Scene& scene, const RlSettings& settings) {
 }
 
 void check_loop_budget(const gpu::DeviceInfo& device, const Scene& scene, const RenderSettings& settings,
-                       std::size_t columns) {
-  if (!gpu::is_llvmpipe()) return;
+                       std::size_t actions) {
+  if (device.loop_limit == 0) return;
+  const auto budget = static_cast<int>(device.loop_limit);
   check(
-      columns <= kLoopBudget / kLoopsPerColumn / 2,
-      "a table of {} columns (direction bins and learned lights) needs loops that the driver of this device "
+      actions <= static_cast<std::size_t>(budget / kLoopsPerAction / 2),
+      "a table of {} actions (direction bins and learned lights) needs loops that the driver of this device "
       "({}) cuts after {} iterations; lower rl.bins_theta or rl.bins_phi, choose lights by power, or use "
       "another device",
-      columns, device.renderer, kLoopBudget);
+      actions, device.renderer, budget);
   const int turns = search_turns(scene, settings.rl);
   const int hits = settings.max_bounces + 1;
   const bool is_linear = settings.rl.site_search == SiteSearch::linear;
-  check(turns <= kLoopBudget / 2 / hits,
+  check(turns <= budget / 2 / hits,
         "a path of max_bounces {}, with up to {} turns of the search for each of its cells, may need {} loop "
         "iterations, and the driver of this device ({}) cuts loops after {}; lower max_bounces{}, or use "
         "another device",
-        settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, kLoopBudget,
+        settings.max_bounces, turns, std::int64_t{turns} * hits, device.renderer, budget,
         is_linear ? ", choose rl.site_search lists, lower the number of sites" : "");
 }
 
@@ -76,13 +75,13 @@ void check_targets(const RenderSettings& settings) {
         kMostTargets - 1);
 }
 
-void check_lessons(const RenderSettings& settings) {
+void check_vertices(const RenderSettings& settings) {
   if (settings.sampler != Sampler::rl || settings.rl.update != UpdateRule::monte_carlo) return;
   check(
-      settings.max_bounces <= kMostLessons,
+      settings.max_bounces <= kMostVertices,
       "rl.update monte_carlo keeps all events of a path and allows max_bounces up to {}, not {}; lower it or "
       "choose another rule",
-      kMostLessons, settings.max_bounces);
+      kMostVertices, settings.max_bounces);
 }
 
 }  // namespace
@@ -99,15 +98,15 @@ std::uint32_t frames_per_update(const RenderSettings& settings) {
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   const auto pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
   gpu::check_buffer_size("first hits", pixels * sizeof(gpu::FirstHit));  // the largest of those with pixels
-  check_lessons(settings);
+  check_vertices(settings);
   const gpu::SceneFeatures features = gpu::find_features(scene);
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;
-  const std::size_t columns = table_columns(effective, features);
+  const std::size_t actions = table_actions(effective, features);
   check_targets(effective);
   CellBuffers::check_size(scene, settings.rl);
-  QTable::check_size(CellBuffers::count(scene, settings.rl), columns);
-  check_loop_budget(context.device(), scene, effective, columns);
+  QTable::check_size(CellBuffers::count(scene, settings.rl), actions);
+  check_loop_budget(context.device(), scene, effective, actions);
 }
 
 }  // namespace qtrace

@@ -10,11 +10,12 @@ namespace {
 
 std::uint32_t groups_of(std::uint32_t cells) { return (cells + gpu::LEARN_GROUP - 1) / gpu::LEARN_GROUP; }
 
+// The names of these buffers stand in saved states.
 constexpr const char* kSums = "Q targets (cells x columns)";
 
 // With the marks of the cells.
-std::size_t sum_bytes(std::size_t cells, std::size_t columns) {
-  return cells * (columns * sizeof(gpu::TargetSum) + sizeof(std::uint32_t));
+std::size_t sum_bytes(std::size_t cells, std::size_t actions) {
+  return cells * (actions * sizeof(gpu::TargetSum) + sizeof(std::uint32_t));
 }
 
 std::vector<gpu::CellPlace> pack_places(const std::vector<CellState>& states) {
@@ -26,14 +27,14 @@ std::vector<gpu::CellPlace> pack_places(const std::vector<CellState>& states) {
 
 }  // namespace
 
-QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t columns,
+QTable::QTable(const Scene& scene, const RlSettings& settings, std::size_t actions,
                const gpu::Defines& defines, gpu::ProgramCache& programs)
     : cells_(scene, settings),
-      columns_(columns),
-      entries_(cells_.count() * columns),
+      actions_(actions),
+      entries_(cells_.count() * actions),
       values_("Q values (cells x columns)", entries_ * sizeof(float), gpu::also_fetched(gpu::Texels::float1)),
       visits_("Q visits (cells x columns)", entries_ * sizeof(std::uint32_t)),
-      sums_(kSums, sum_bytes(cells_.count(), columns)),
+      sums_(kSums, sum_bytes(cells_.count(), actions)),
       starts_("Q distributions (cells x columns)", entries_ * sizeof(std::uint32_t),
               gpu::also_fetched(gpu::Texels::uint1)),
       next_values_("Q next values (cells)", cells_.count() * sizeof(float),
@@ -52,8 +53,8 @@ void QTable::bind() const {
   values_.bind_fetched(gpu::UNIT_Q_VALUES);
   visits_.bind_storage(gpu::BINDING_Q_VISITS);
   sums_.bind_storage(gpu::BINDING_TARGET_SUMS);
-  starts_.bind_storage(gpu::BINDING_COLUMN_STARTS);
-  starts_.bind_fetched(gpu::UNIT_COLUMN_STARTS);
+  starts_.bind_storage(gpu::BINDING_ACTION_STARTS);
+  starts_.bind_fetched(gpu::UNIT_ACTION_STARTS);
   next_values_.bind_storage(gpu::BINDING_NEXT_VALUES);
   next_values_.bind_fetched(gpu::UNIT_NEXT_VALUES);
   bsdf_shares_.bind_storage(gpu::BINDING_BSDF_SHARES);
@@ -109,14 +110,14 @@ std::vector<float> QTable::values() const { return values_.read_all<float>(); }
 
 std::vector<std::uint32_t> QTable::visits() const { return visits_.read_all<std::uint32_t>(); }
 
-void QTable::check_size(std::size_t cells, std::size_t columns) {
+void QTable::check_size(std::size_t cells, std::size_t actions) {
   // Every implementation of OpenGL allows so many work groups.
   constexpr std::size_t kMostCells = std::size_t{65535} * gpu::LEARN_GROUP;
   check(cells <= kMostCells,
         "{} cells (two for each site) are more than the {} that one update can reach; lower the "
         "number of sites",
         cells, kMostCells);
-  gpu::check_buffer_size(kSums, sum_bytes(cells, columns));
+  gpu::check_buffer_size(kSums, sum_bytes(cells, actions));
   gpu::check_buffer_size("places of cells", cells * sizeof(gpu::CellPlace));
 }
 

@@ -16,8 +16,8 @@ namespace qtrace {
 
 class QTable {
  public:
-  // `columns`: of a row (table_columns() of shader_variant.h).
-  QTable(const Scene& scene, const RlSettings& settings, std::size_t columns, const gpu::Defines& defines,
+  // `actions`: of a state (table_actions() of shader_variant.h).
+  QTable(const Scene& scene, const RlSettings& settings, std::size_t actions, const gpu::Defines& defines,
          gpu::ProgramCache& programs);
 
   void bind() const;
@@ -36,11 +36,11 @@ class QTable {
   std::size_t bytes() const;
 
   // Throws Error where the device cannot hold such a table.
-  static void check_size(std::size_t cells, std::size_t columns);
+  static void check_size(std::size_t cells, std::size_t actions);
 
-  std::size_t columns() const { return columns_; }
+  std::size_t actions() const { return actions_; }
 
-  // For studies and tests of the table itself; entry = cell * columns + column, direction bins before lights
+  // For studies and tests of the table itself; entry = cell * actions + action, direction bins before lights
   // (shaders/learning/table.glsl). set_values() keeps the visits.
   std::vector<float> values() const;
   std::vector<std::uint32_t> visits() const;
@@ -48,11 +48,11 @@ class QTable {
 
  private:
   void apply();        // to the cells that are listed
-  void prepare_all();  // as if every cell had been taught something
+  void prepare_all();  // as if targets had been gathered for every cell
   void forget_touched();
 
   CellBuffers cells_;
-  std::size_t columns_;
+  std::size_t actions_;
   std::size_t entries_;
   gpu::Buffer values_;
   gpu::Buffer visits_;

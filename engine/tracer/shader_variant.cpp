@@ -1,35 +1,120 @@
 #include "engine/tracer/shader_variant.h"
 
+#include "engine/gpu/fetch.h"
+#include "shaders/shared/variants.glsl"
+
 #include <algorithm>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace qtrace {
 namespace {
 
+struct Numbered {
+  std::string_view name;
+  int value;   // of the enumerator
+  int number;  // in variants.glsl
+};
+#define NUMBERED(Enum, enumerator, number) \
+  Numbered { #enumerator, static_cast < int>(Enum::enumerator), number }
+
+// Whether these are all enumerators of Choice, in their order, and host, shaders and configs mean the same by
+// each.
 template <class Choice>
-std::string number(Choice choice) {
-  return std::to_string(static_cast<int>(choice));
+constexpr bool agree(std::initializer_list<Numbered> enumerators) {
+  if (enumerators.size() != EnumNames<Choice>::values.size()) return false;
+  int place = 0;
+  for (const Numbered& e : enumerators) {
+    if (e.value != place || e.number != place) return false;
+    if (e.name != EnumNames<Choice>::values[static_cast<std::size_t>(place)]) return false;
+    ++place;
+  }
+  return true;
+}
+
+// A choice whose enum is not below has no number: choice() does not compile with it.
+template <class Choice>
+constexpr bool kIsNumbered = false;
+template <>
+constexpr bool kIsNumbered<Sampler> = agree<Sampler>({NUMBERED(Sampler, bsdf, SAMPLER_BSDF),
+                                                      NUMBERED(Sampler, uniform, SAMPLER_UNIFORM),
+                                                      NUMBERED(Sampler, rl, SAMPLER_RL)});
+template <>
+constexpr bool kIsNumbered<Nee> = agree<Nee>({NUMBERED(Nee, none, NEE_NONE),
+                                              NUMBERED(Nee, one_ray, NEE_ONE_RAY),
+                                              NUMBERED(Nee, two_ray, NEE_TWO_RAY)});
+template <>
+constexpr bool kIsNumbered<BvhKind> = agree<BvhKind>({NUMBERED(BvhKind, sah, BVH_SAH),
+                                                      NUMBERED(BvhKind, threaded, BVH_THREADED)});
+template <>
+constexpr bool kIsNumbered<UpdateRule> = agree<UpdateRule>(
+    {NUMBERED(UpdateRule, expected_sarsa, UPDATE_EXPECTED_SARSA), NUMBERED(UpdateRule, sarsa, UPDATE_SARSA),
+     NUMBERED(UpdateRule, q_learning, UPDATE_Q_LEARNING),
+     NUMBERED(UpdateRule, monte_carlo, UPDATE_MONTE_CARLO),
+     NUMBERED(UpdateRule, paper_listing, UPDATE_PAPER_LISTING)});
+template <>
+constexpr bool kIsNumbered<Learns> = agree<Learns>({NUMBERED(Learns, all, LEARNS_ALL),
+                                                    NUMBERED(Learns, beyond_nee, LEARNS_BEYOND_NEE)});
+template <>
+constexpr bool kIsNumbered<LearningRate> = agree<LearningRate>(
+    {NUMBERED(LearningRate, visits_per_bin, RATE_VISITS_PER_BIN),
+     NUMBERED(LearningRate, visits_per_cell, RATE_VISITS_PER_CELL),
+     NUMBERED(LearningRate, constant, RATE_CONSTANT), NUMBERED(LearningRate, power, RATE_POWER)});
+template <>
+constexpr bool kIsNumbered<CellKind> = agree<CellKind>({NUMBERED(CellKind, voronoi, CELLS_VORONOI),
+                                                        NUMBERED(CellKind, grid, CELLS_GRID)});
+template <>
+constexpr bool kIsNumbered<SiteSearch> = agree<SiteSearch>(
+    {NUMBERED(SiteSearch, lists, SITE_SEARCH_LISTS), NUMBERED(SiteSearch, tree, SITE_SEARCH_TREE),
+     NUMBERED(SiteSearch, linear, SITE_SEARCH_LINEAR)});
+template <>
+constexpr bool kIsNumbered<BinMap> = agree<BinMap>({NUMBERED(BinMap, cylindrical, BIN_MAP_CYLINDRICAL),
+                                                    NUMBERED(BinMap, concentric, BIN_MAP_CONCENTRIC)});
+template <>
+constexpr bool kIsNumbered<InitialTable> = agree<InitialTable>(
+    {NUMBERED(InitialTable, zero, INITIAL_ZERO), NUMBERED(InitialTable, constant, INITIAL_CONSTANT),
+     NUMBERED(InitialTable, random, INITIAL_RANDOM), NUMBERED(InitialTable, cosine, INITIAL_COSINE)});
+template <>
+constexpr bool kIsNumbered<BinWeight> = agree<BinWeight>({NUMBERED(BinWeight, value, BIN_WEIGHT_VALUE),
+                                                          NUMBERED(BinWeight, value_cosine,
+                                                                   BIN_WEIGHT_VALUE_COSINE)});
+template <>
+constexpr bool kIsNumbered<Roulette> = agree<Roulette>({NUMBERED(Roulette, throughput, ROULETTE_THROUGHPUT),
+                                                        NUMBERED(Roulette, reflectance, ROULETTE_REFLECTANCE),
+                                                        NUMBERED(Roulette, value, ROULETTE_VALUE)});
+#undef NUMBERED
+
+// Chosen by the driver, not by a setting (engine/gpu/driver.cpp).
+static_assert(static_cast<int>(gpu::Fetch::texture) == FETCH_TEXTURE &&
+              static_cast<int>(gpu::Fetch::image) == FETCH_IMAGE &&
+              static_cast<int>(gpu::Fetch::storage) == FETCH_STORAGE);
+
+template <class Choice>
+std::string choice(Choice chosen) {
+  static_assert(kIsNumbered<Choice>, "the enum and its numbers in shaders/shared/variants.glsl differ");
+  return std::to_string(static_cast<int>(chosen));
 }
 
 void define_table(gpu::Defines& defines, const RenderSettings& settings, const gpu::SceneFeatures& features) {
   defines["HAS_TABLE"] = "1";
-  defines["LIGHT_COLUMNS"] = number(learns_lights(settings) ? features.lights : 0);
-  defines["CELLS"] = number(settings.rl.cells);
-  defines["SITE_SEARCH"] = number(settings.rl.site_search);
-  defines["LEARNING_RATE"] = number(settings.rl.learning_rate);
-  defines["INITIAL_TABLE"] = number(settings.rl.initial_table);
+  defines["LIGHT_ACTIONS"] = std::to_string(learns_lights(settings) ? features.lights : 0);
+  defines["CELLS"] = choice(settings.rl.cells);
+  defines["SITE_SEARCH"] = choice(settings.rl.site_search);
+  defines["LEARNING_RATE"] = choice(settings.rl.learning_rate);
+  defines["INITIAL_TABLE"] = choice(settings.rl.initial_table);
   if (settings.sampler != Sampler::rl) return;
-  defines["BIN_MAP"] = number(settings.rl.bin_map);
-  defines["BINS_THETA"] = number(settings.rl.bins_theta);
-  defines["BINS_PHI"] = number(settings.rl.bins_phi);
-  defines["UPDATE_RULE"] = number(settings.rl.update);
-  defines["LEARNS"] = number(settings.rl.learns);
-  defines["ROULETTE"] = number(settings.rl.roulette);
-  defines["BIN_WEIGHT"] = number(settings.rl.bin_weight);
+  defines["BIN_MAP"] = choice(settings.rl.bin_map);
+  defines["BINS_THETA"] = std::to_string(settings.rl.bins_theta);
+  defines["BINS_PHI"] = std::to_string(settings.rl.bins_phi);
+  defines["UPDATE_RULE"] = choice(settings.rl.update);
+  defines["LEARNS"] = choice(settings.rl.learns);
+  defines["ROULETTE"] = choice(settings.rl.roulette);
+  defines["BIN_WEIGHT"] = choice(settings.rl.bin_weight);
   if (settings.rl.shrinkage > 0) defines["SHRINKS"] = "1";
   if (settings.rl.mixture == Mixture::learned) defines["LEARNS_MIXTURE"] = "1";
   if (settings.rl.bsdf_fraction > 0 || settings.rl.mixture == Mixture::learned) defines["MIXES_BSDF"] = "1";
-  defines["MAX_LESSONS"] = number(std::max(settings.max_bounces, 1));
+  defines["MAX_VERTICES"] = std::to_string(std::max(settings.max_bounces, 1));
 }
 
 }  // namespace
@@ -39,7 +124,7 @@ RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatu
   return settings;
 }
 
-std::size_t table_columns(const RenderSettings& settings, const gpu::SceneFeatures& features) {
+std::size_t table_actions(const RenderSettings& settings, const gpu::SceneFeatures& features) {
   const bool learns_directions = settings.sampler == Sampler::rl;
   const int bins = learns_directions ? settings.rl.bins_theta * settings.rl.bins_phi : 0;
   const std::size_t sides = learns_directions && settings.rl.mixture == Mixture::learned ? 2 : 0;
@@ -54,10 +139,10 @@ gpu::Defines with_cells(gpu::Defines defines, const CellBuffers& cells) {
 gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatures& features) {
   const RenderSettings settings = effective_settings(wanted, features);
   gpu::Defines defines;
-  defines["SAMPLER"] = number(settings.sampler);
-  defines["NEE"] = number(settings.nee);
-  defines["BVH"] = number(settings.bvh);
-  defines["LIGHT_COLUMNS"] = "0";
+  defines["SAMPLER"] = choice(settings.sampler);
+  defines["NEE"] = choice(settings.nee);
+  defines["BVH"] = choice(settings.bvh);
+  defines["LIGHT_ACTIONS"] = "0";
   if (features.specular) defines["HAS_SPECULAR"] = "1";
   if (std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
     defines["HAS_ENVIRONMENT"] = "1";

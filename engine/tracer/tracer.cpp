@@ -1,5 +1,6 @@
 #include "engine/tracer/tracer.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
@@ -44,7 +45,7 @@ struct Tracer::State {
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
-      table.emplace(scene, settings.rl, table_columns(settings, buffers.features()), defines,
+      table.emplace(scene, settings.rl, table_actions(settings, buffers.features()), defines,
                     context.programs());
       defines = with_cells(defines, table->cells());
     }
@@ -52,8 +53,8 @@ struct Tracer::State {
     if (trial.is_wanted()) {
       RenderSettings without = settings;
       without.sampler = Sampler::bsdf;
-      trace_without =
-          context.programs().get("passes/trace.comp", joined(shader_defines(without, buffers.features()), more));
+      trace_without = context.programs().get("passes/trace.comp",
+                                             joined(shader_defines(without, buffers.features()), more));
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
@@ -159,7 +160,7 @@ void Tracer::render_frame() {
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
 
-FrameCounters Tracer::last_frame_counters() const { return state_->film.statistics(); }
+FrameCounters Tracer::last_frame_counters() const { return state_->film.counters(); }
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
 

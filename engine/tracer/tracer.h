@@ -5,8 +5,8 @@
 #include "engine/core/settings.h"
 #include "engine/gpu/context.h"
 #include "engine/scene/scene.h"
-#include "engine/tracer/qtable.h"
 #include "engine/tracer/counters.h"
+#include "engine/tracer/qtable.h"
 #include "engine/tracer/tracer_state.h"
 
 #include <array>
@@ -62,7 +62,7 @@ class Tracer {
   std::optional<double> trial_gain() const;
   bool gave_table_up() const;  // frames after the trial leave it out
 
-  std::uint64_t cells() const;         // rows of the table; 0 where there is none
+  std::uint64_t cells() const;         // states of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers
 
  private:

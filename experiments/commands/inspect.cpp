@@ -195,11 +195,11 @@ glm::ivec2 pixel_of(const InspectOptions& options, const RenderSettings& setting
 
 void check_shape(const InspectedRun& run, const Inspection& inspection) {
   const NpyTable<float>& values = run.table.values;
-  check(values.rows == inspection.cells().size() && values.columns == inspection.columns(),
+  check(values.rows == inspection.cells().size() && values.columns == inspection.actions(),
         "{}: the table of frame {} is {} x {}, but this run has {} cells and {} columns; the files do not "
         "belong to it",
         run.folder.string(), run.table.frame, values.rows, values.columns, inspection.cells().size(),
-        inspection.columns());
+        inspection.actions());
 }
 
 std::string figures_text(const InspectedRun& run, glm::ivec2 pixel, int cell, const CellState& state,

@@ -5,6 +5,7 @@
 #include "experiments/images/exr.h"
 #include "experiments/reference/reference_store.h"
 #include "experiments/run/run.h"
+#include "experiments/runtime/driver_store.h"
 #include "experiments/runtime/manifest.h"
 
 #include <unistd.h>
@@ -145,7 +146,8 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
   check(scene.hash == manifest.at("scene").value("hash", ""),
         "{}: the content of {} is not what was rendered then: its hash was {} and is {}", file.string(),
         scene.file.string(), manifest.at("scene").value("hash", ""), scene.hash);
-  const gpu::Context context(options.device);
+  gpu::Context context(options.device);
+  keep_choices(context, part(manifest, "device", file));
   const Place place(options.out);
   const Stopper stopper;
   ReferenceStore references(context, place.path(), stopper, progress);

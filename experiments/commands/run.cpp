@@ -2,12 +2,14 @@
 
 #include "engine/core/check.h"
 #include "experiments/commands/dry_run.h"
+#include "experiments/runtime/driver_store.h"
 #include "experiments/runtime/manifest.h"
 #include "experiments/study/experiment.h"
 #include "experiments/study/plan.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -88,6 +90,7 @@ std::string parse_duration(std::string& text) {
 int run_all(const RunOptions& options, const std::vector<Experiment>& experiments, SceneStore& scenes,
             Progress& progress) {
   gpu::Context context(options.device);
+  choose_driver(context, progress);
   progress.note("device: " + device_text(context.device()));
   for (const Experiment& experiment : experiments) check_device(experiment, context, scenes);
   Stopper stopper;
@@ -138,7 +141,8 @@ int run_command(const RunOptions& given) {
     return 0;
   }
   if (options.dry_run) {
-    const gpu::Context context(options.device);
+    gpu::Context context(options.device);
+    choose_driver(context, progress);
     for (const Experiment& experiment : experiments) {
       check_device(experiment, context, scenes);
       fmt::print("{}", dry_run(experiment, context, scenes, options.choices, progress));

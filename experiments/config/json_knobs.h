@@ -3,6 +3,7 @@
 
 #include "experiments/config/knob_type.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include "experiments/files/atomic_file.h"
 #include "experiments/files/hash.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace qtrace::experiments {

@@ -1,6 +1,6 @@
-// Which planes the project's images have in their files.
+#include "experiments/images/exr_images.h"
+
 #include "engine/core/check.h"
-#include "experiments/images/exr.h"
 
 #include <array>
 #include <charconv>

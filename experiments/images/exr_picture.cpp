@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "experiments/images/colour.h"
 #include "experiments/images/exr.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/images/exr_layers.h"
 #include "experiments/images/exr_planes.h"
 

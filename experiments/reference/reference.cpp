@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "experiments/files/hash.h"
 #include "experiments/images/exr.h"
+#include "experiments/images/exr_images.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "engine/tracer/tracer.h"
 #include "experiments/files/atomic_file.h"
 #include "experiments/images/exr.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/runtime/manifest.h"
 #include "experiments/runtime/version.h"
 

@@ -1,6 +1,7 @@
 #include "experiments/run/run_files.h"
 
 #include "experiments/files/atomic_file.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/records/columns.h"
 #include "experiments/run/saved_table.h"
 #include "experiments/runtime/manifest.h"

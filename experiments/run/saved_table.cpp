@@ -49,8 +49,8 @@ void write_cells(FileQueue& files, const fs::path& folder, const std::vector<Cel
 }
 
 void write_table(FileQueue& files, const fs::path& folder, int frame, const QTable& table) {
-  files.put(table_file(folder, kValues, frame), npy_text<float>(table.columns(), table.values()));
-  files.put(table_file(folder, kVisits, frame), npy_text<std::uint32_t>(table.columns(), table.visits()));
+  files.put(table_file(folder, kValues, frame), npy_text<float>(table.actions(), table.values()));
+  files.put(table_file(folder, kVisits, frame), npy_text<std::uint32_t>(table.actions(), table.visits()));
 }
 
 SavedTable read_saved_table(const fs::path& folder, std::optional<int> frame) {

@@ -4,6 +4,7 @@
 #include "engine/tracer/limits.h"
 #include "experiments/run/run.h"
 #include "experiments/run/run_store.h"
+#include "experiments/runtime/driver_store.h"
 #include "experiments/study/calibration.h"
 #include "experiments/study/disk_space.h"
 #include "experiments/study/experiment_inputs.h"
@@ -309,6 +310,8 @@ void check_device(const Experiment& experiment, const gpu::Context& context, Sce
 bool run_experiment(const Experiment& experiment, gpu::Context& context, SceneStore& scenes,
                     const RunChoices& choices, const Stopper& stopper, const GiveUp& give_up,
                     Progress& progress) {
+  const std::filesystem::path folder = choices.root / experiment.name;
+  if (!choices.fresh) keep_choices_of(context, folder, !choices.shard.is_whole());
   return Work(experiment, context, scenes, choices, stopper, give_up, progress).run();
 }
 

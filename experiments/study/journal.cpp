@@ -1,6 +1,7 @@
 #include "experiments/study/journal.h"
 
 #include "experiments/files/atomic_file.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/records/columns.h"
 #include "experiments/records/figures.h"
 #include "experiments/records/ratios.h"

@@ -1,14 +1,16 @@
+// Camera rays, and which pixel an invocation has.
+#include "shared/parameters.glsl"
 #include "shared/work_groups.glsl"
 
 // The camera ray's unit direction through `position`, in pixels from the upper left corner of the image.
 vec3 camera_direction(vec2 position) {
-  vec2 size = vec2(parameters.image.xy);
+  vec2 size = vec2(parameters.image_size);
   vec2 ndc = vec2(2.0 * position.x / size.x - 1.0, 1.0 - 2.0 * position.y / size.y);
   return normalize(parameters.camera_forward.xyz + ndc.x * parameters.camera_right.xyz +
                    ndc.y * parameters.camera_up.xyz);
 }
 
-// Work groups are 64 x 1 because SIMD lanes run along x alone on llvmpipe; each covers 8 x 8 pixels as 4 x 2
+// Work groups are 64 x 1 (shaders/README.md); each covers 8 x 8 pixels as 4 x 2
 // blocks, so that neighbouring lanes trace neighbouring rays.
 uvec2 pixel_of_invocation() {
   uint lane = gl_LocalInvocationID.x;

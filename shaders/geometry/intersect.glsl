@@ -1,5 +1,6 @@
 // One ray and one triangle.
 #include "geometry/scene.glsl"
+#include "shared/structs.glsl"
 
 #ifdef COUNTED  // by ./dev bench: what a walk visits
 struct WalkSteps {

@@ -1,6 +1,6 @@
 // The scene's buffers.
-#include "shared/structs.glsl"
 #include "shared/fetch.glsl"
+#include "shared/structs.glsl"
 
 FETCHED_UVEC4(nodes, UNIT_NODES);
 FETCHED_VEC4(shapes, UNIT_SHAPES);
@@ -8,9 +8,6 @@ FETCHED_VEC4(shades, UNIT_SHADES);
 FETCHED_VEC4(materials, UNIT_MATERIALS);
 FETCHED_VEC4(light_triangles, UNIT_LIGHT_TRIANGLES);
 FETCHED_VEC4(lights, UNIT_LIGHTS);
-layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters parameters; };
-layout(location = LOCATION_FRAME) uniform uint frame_number;
-layout(location = LOCATION_TEACHES) uniform uint frame_teaches;
 
 // Vertex 0, 1 or 2 of a triangle, and what is stored with it.
 vec3 vertex_of(uint triangle, uint vertex) {
@@ -38,19 +35,4 @@ LightTriangle light_triangle(uint i) {
   return LightTriangle(fetch(light_triangles, first), fetch(light_triangles, first + 1u),
                        fetch(light_triangles, first + 2u), fetch(light_triangles, first + 3u),
                        fetch(light_triangles, first + 4u), floatBitsToUint(fetch(light_triangles, first + 5u)));
-}
-
-const float PI = 3.14159265358979;
-#define INFINITY uintBitsToFloat(0x7f800000u)
-
-// Set where a loop ended before its own condition: drivers may bound the iterations of a shader
-// (llvmpipe: 65,535, shared by all loops). Reported, never ignored.
-bool loop_was_cut = false;
-
-float average(vec3 v) {
-  return (v.x + v.y + v.z) * (1.0 / 3.0);
-}
-
-float max_component(vec3 v) {
-  return max(v.x, max(v.y, v.z));
 }

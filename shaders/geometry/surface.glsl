@@ -1,5 +1,8 @@
 // From a hit to a shading point.
-#include "geometry/traverse.glsl"
+#include "geometry/intersect.glsl"
+#include "geometry/scene.glsl"
+#include "shared/math.glsl"
+#include "shared/structs.glsl"
 
 struct Surface {
   vec3 position;

@@ -1,18 +1,20 @@
 // Ray queries.
-#include "shared/variants.glsl"
 #include "geometry/intersect.glsl"
+#include "shared/math.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
 #ifndef BVH
 #define BVH BVH_SAH
 #endif
+// In the order of StackPlace (engine/gpu/driver.h).
+#define STACK_MEMORY 0
+#define STACK_REGISTERS 1
 #if BVH == BVH_THREADED
 #include "geometry/traverse_threaded.glsl"
-#else
-#include "geometry/wide_nodes.glsl"
-#if FETCH == FETCH_IMAGE
+#elif STACK == STACK_REGISTERS
 #include "geometry/traverse_registers.glsl"
 #else
 #include "geometry/traverse_ordered.glsl"
-#endif
 #endif
 
 // The nearest hit at t in (0, infinity); `direction` need not be unit.

@@ -1,4 +1,8 @@
 // Traversal with a stack in memory, the nearer child first: GPUs.
+#include "geometry/intersect.glsl"
+#include "geometry/wide_nodes.glsl"
+#include "shared/loops.glsl"
+#include "shared/structs.glsl"
 
 // One for all queries of a shader: NVIDIA's driver (580.159) keeps an array of its own for each place where a function
 // is inlined, and fewer invocations at a time the more memory each has.

@@ -1,9 +1,13 @@
 // Traversal with a stack, the nearer child first, as it is fastest where a SIMD register's lanes read and write memory
 // one by one: on llvmpipe.
+#include "geometry/intersect.glsl"
+#include "geometry/wide_nodes.glsl"
+#include "shared/loops.glsl"
+#include "shared/structs.glsl"
 
 // The stack of links yet to follow: the eight on top in registers, EMPTY where there are fewer, and the older ones in
-// memory. Nodes are walked with those in registers alone. llvmpipe reads and writes memory lane by lane: a stack in
-// memory alone takes a quarter of a frame's time.
+// memory. Nodes are walked with those in registers alone: there, a stack in memory alone takes a quarter of a frame's
+// time.
 struct Stack {
   uvec4 top;
   uvec4 rest;
@@ -33,8 +37,7 @@ void push_or_pop(inout Stack stack, bool push, uint link, bool pop) {
 shared uint stored_links[BVH_DEPTH * TRACE_GROUP];
 #define STORED(i) stored_links[gl_LocalInvocationIndex * BVH_DEPTH + (i)]
 
-// Bodies stand in an `if`, here and in every loop whose lanes end at different turns: llvmpipe (Mesa 22.3) computes
-// a value that leaves a loop again in the later turns of other lanes, unless a branch guards it.
+// Bodies stand in an `if` (shaders/README.md).
 void traverse(vec3 origin, vec3 direction, bool any_hit, inout Hit hit) {
   GridRay ray = grid_ray(origin, direction);
   Shear shear = shear_of(direction);

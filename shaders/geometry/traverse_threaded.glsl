@@ -1,5 +1,9 @@
-// Traversal without a stack, by hit and miss links (the report, section 4.1).
+// Traversal without a stack, by hit and miss links (Goswami 2020, section 4.1).
 #include "geometry/intersect.glsl"
+#include "geometry/scene.glsl"
+#include "shared/fetch.glsl"
+#include "shared/loops.glsl"
+#include "shared/structs.glsl"
 
 // Slab test. The far side is widened by the rounding of one subtraction and one product on either side
 // (Ize 2013, "Robust BVH Ray Traversal"), so that a flat box is not missed.
@@ -13,8 +17,7 @@ bool meets_box(vec3 origin, vec3 inverse, vec3 lo, vec3 hi, float t_max) {
 
 // Walks to the next leaf whose box the ray meets and returns its packed range of triangles; 0 at the end.
 // `node` is left behind that leaf.
-// The body stands in an `if`, here and in every loop whose lanes end at different turns: llvmpipe (Mesa 22.3)
-// computes a value that leaves a loop again in the later turns of other lanes, unless a branch guards it.
+// Bodies stand in an `if` (shaders/README.md).
 uint next_leaf(vec3 origin, vec3 inverse, float t_max, inout uint node) {
   uint leaf = 0u;
   bool searching = true;

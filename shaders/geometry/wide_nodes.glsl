@@ -1,6 +1,9 @@
 // Nodes with both of their children in them, boxes in 16 bits a corner on a grid over the scene, rounded outwards by
 // more than the tests below can be wrong (WideNode in structs.glsl).
 #include "geometry/intersect.glsl"
+#include "geometry/scene.glsl"
+#include "shared/fetch.glsl"
+#include "shared/structs.glsl"
 
 layout(std140, binding = BINDING_NODE_GRID) uniform NodeGridBlock { NodeGrid node_grid; };
 

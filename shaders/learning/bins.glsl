@@ -1,12 +1,15 @@
 // Direction bins: BINS_THETA x BINS_PHI patches of the hemisphere about a normal, equal in solid angle, because
 // a map that keeps areas takes the unit square there. Bin (j, k) has index j * BINS_PHI + k and covers
 // [j, j + 1) / BINS_THETA x [k, k + 1) / BINS_PHI of the square.
+#include "shared/math.glsl"
+#include "shared/variants.glsl"
+
 const int BINS = BINS_THETA * BINS_PHI;
 const float BIN_SOLID_ANGLE = 2.0 * PI / float(BINS);
 
 #if BIN_MAP == BIN_MAP_CYLINDRICAL
 
-// (cos(theta), phi / 2 pi): Archimedes' map, as in the report.
+// (cos(theta), phi / 2 pi): Archimedes' map, as in Goswami 2020.
 vec2 to_square(vec3 local) {
   float turn = atan(local.y, local.x) * (0.5 / PI);
   return vec2(local.z, turn < 0.0 ? turn + 1.0 : turn);

@@ -2,6 +2,11 @@
 // A / (A + B) is a step of expectation maximisation towards the mixture with the least second moment: at a minimum, the
 // derivative of the second moment, the integral of (f / p)^2 (p_bsdf - p_table), is zero, and then A / (A + B) is the share
 // itself. Later frames count for more, in proportion to their number, since the table that they used was better.
+#include "learning/storage.glsl"
+#include "learning/table.glsl"
+#include "learning/target_sums.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 // Of either side. It bounds the weight of a direction that the table, or the BSDF, would not have drawn.
 const float LEAST_SHARE = 0.3;
@@ -26,7 +31,7 @@ void learn_mixture(uint cell) {
   }
   float a = q_values[first + SHARE_BSDF];
   float b = q_values[first + SHARE_TABLE];
-  float share = a + b > 0.0 ? a / (a + b) : parameters.rl.x;
-  share = (share * visits + parameters.rl.x * PRIOR_VISITS) / (visits + PRIOR_VISITS);
+  float share = a + b > 0.0 ? a / (a + b) : parameters.bsdf_fraction;
+  share = (share * visits + parameters.bsdf_fraction * PRIOR_VISITS) / (visits + PRIOR_VISITS);
   bsdf_shares[cell] = clamp(share, LEAST_SHARE, 1.0 - LEAST_SHARE);
 }

@@ -1,14 +1,22 @@
-// The Q-table's directions as the tracer uses them: their density, and what they promise at the next hit.
+// The Q-table's directions as the tracer uses them: their density, and the value that a target bootstraps from.
+#include "geometry/surface.glsl"
+#include "learning/actions.glsl"
+#include "learning/bins.glsl"
+#include "learning/cell.glsl"
+#include "learning/table.glsl"
 #include "material/bsdf.glsl"
-#include "learning/cells.glsl"
-#include "learning/columns.glsl"
+#include "shared/fetch.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
 
 FETCHED_FLOAT(q_values, UNIT_Q_VALUES);
 FETCHED_FLOAT(next_values, UNIT_NEXT_VALUES);
 FETCHED_FLOAT(bsdf_shares, UNIT_BSDF_SHARES);
 
 Choice choose_bin(uint cell, uint word) {
-  return choose_column(first_bin(cell), uint(BINS), word);
+  return choose_action(first_bin(cell), uint(BINS), word);
 }
 
 // Density per solid angle of drawing a bin by its value, then a direction uniformly in it.
@@ -17,7 +25,7 @@ float bin_pdf(float probability) {
 }
 
 float table_pdf(uint cell, uint bin) {
-  return bin_pdf(column_probability(first_bin(cell), uint(BINS), bin));
+  return bin_pdf(action_probability(first_bin(cell), uint(BINS), bin));
 }
 
 #ifdef HAS_SPECULAR
@@ -49,10 +57,10 @@ float expected_reflection(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 rotation) 
 #endif
 
 // What is reflected towards `wo` of the table's radiance: the second term of a target of these rules.
-//   expected_sarsa: the integral of Q f_r cos(theta) (Dahm & Keller 2017; the report, eq. 18). Lambert: the
+//   expected_sarsa: the integral of Q f_r cos(theta) (Dahm & Keller 2017; Goswami 2020, eq. 18). Lambert: the
 //     cell's irradiance, prepared by learn.comp with the exact mean cosine of every bin. Glossy: see above.
-//   q_learning: the best bin's value in its place, discounted by the reflectance (the report, eq. 13)
-//   paper_listing: the best bin's value, discounted by the whole path's throughput (the report's listing)
+//   q_learning: the best bin's value in its place, discounted by the reflectance (Goswami 2020, eq. 13)
+//   paper_listing: the best bin's value, discounted by the whole path's throughput (the listing of Goswami 2020)
 float next_value(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 throughput, vec3 rotation) {
 #if UPDATE_RULE == UPDATE_PAPER_LISTING
   return average(throughput) * fetch_one(next_values, cell.index);

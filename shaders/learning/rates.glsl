@@ -1,6 +1,9 @@
 // Learning rates: how far the targets of one frame move a value. After m targets with mean M a value Q becomes
 // keep * Q + gain * M with keep + gain = 1. Both are given: where one is tiny, the other's difference to 1 has no
 // digits left.
+#include "shared/parameters.glsl"
+#include "shared/variants.glsl"
+
 struct Step {
   float keep;
   float gain;
@@ -28,21 +31,21 @@ Step fixed_rate(float alpha, float targets) {
   return alpha >= 1.0 ? Step(0.0, 1.0) : step_of(targets * log_one_plus(-alpha));
 }
 
-// `visits` of the entry before this frame and `targets` of this frame; the same of all its cell's columns.
+// `visits` of the entry before this frame and `targets` of this frame; the same of all its cell's actions of the kind.
 Step learning_step(float visits, float targets, float cell_visits, float cell_targets) {
 #if LEARNING_RATE == RATE_VISITS_PER_BIN
-  // alpha = 1 / (1 + visits(cell, bin)) (the report, section 4.3.2): the mean of all targets, in any order.
+  // alpha = 1 / (1 + visits(cell, bin)) (Goswami 2020, section 4.3.2): the mean of all targets, in any order.
   float all = visits + targets;
   return Step(visits / all, targets / all);
 #elif LEARNING_RATE == RATE_VISITS_PER_CELL
-  // alpha = 1 / (1 + visits(cell)) (the report's listing). If all M targets of the cell taught one value,
+  // alpha = 1 / (1 + visits(cell)) (the listing of Goswami 2020). If all M targets of the cell were for one value,
   // N / (N + M) of it would be left; m of them, evenly mixed among the others, leave the m/M-th power of that.
   if (cell_visits == 0.0) return Step(0.0, 1.0);
   return step_of(-targets / cell_targets * log_one_plus(cell_targets / cell_visits));
 #elif LEARNING_RATE == RATE_CONSTANT
-  return fixed_rate(parameters.learning.x, targets);
+  return fixed_rate(parameters.rate_constant, targets);
 #else
   // alpha = (1 + visits)^-exponent, that of the frame's start.
-  return fixed_rate(pow(1.0 + visits, -parameters.learning.y), targets);
+  return fixed_rate(pow(1.0 + visits, -parameters.rate_exponent), targets);
 #endif
 }

@@ -1,4 +1,7 @@
 // Values of bins as the table uses them: shrunk towards those around them where they have few visits of their own.
+#include "learning/bins.glsl"
+#include "learning/storage.glsl"
+#include "shared/parameters.glsl"
 
 #ifdef SHRINKS
 
@@ -27,7 +30,7 @@ void find_block_means(uint first) {
   i = 0u;
   do {
     float n = float(q_visits[first + i]);
-    float weight = n / (n + parameters.shaping.x);
+    float weight = n / (n + parameters.shrinkage);
     uint block = block_of(i);
     sums[block] += weight * q_values[first + i];
     weights[block] += weight;
@@ -46,14 +49,14 @@ void find_block_means(uint first) {
   i = 0u;
   do {
     float own = weights[i] > 0.0 ? sums[i] / weights[i] : 0.0;
-    block_means[i] = mix(mean, own, visits[i] / (visits[i] + parameters.shaping.x));
+    block_means[i] = mix(mean, own, visits[i] / (visits[i] + parameters.shrinkage));
     ++i;
   } while (i < BLOCKS);
 }
 
 float shrunk(uint first, uint bin) {
   float n = float(q_visits[first + bin]);
-  return mix(block_means[block_of(bin)], q_values[first + bin], n / (n + parameters.shaping.x));
+  return mix(block_means[block_of(bin)], q_values[first + bin], n / (n + parameters.shrinkage));
 }
 
 #else

@@ -1,5 +1,14 @@
-// Voronoi cells (the report, section 4.3.1): among the sites of the same object whose normal is close enough,
+// Voronoi cells (Goswami 2020, section 4.3.1): among the sites of the same object whose normal is close enough,
 // the nearest; of equally near ones, the first. Front and back of a surface are cells of their own.
+#include "geometry/surface.glsl"
+#include "learning/cell.glsl"
+#include "shared/fetch.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+
 FETCHED_VEC4(sites, UNIT_SITES);
 // The ranges of the objects, in two elements each. Then entries, four in an element: place << LIST_COUNT_BITS | length
 // of a list. Then the lists: xyz: bits of a position, w: its site within the object; before it, where not every normal
@@ -32,7 +41,7 @@ float squared_distance(Surface s, vec3 position) {
 
 bool qualifies(Surface s, vec3 normal) {
   precise float cosine = dot(normal, s.mesh_normal);
-  return cosine > parameters.rl.z;
+  return cosine > parameters.cell_normal_threshold;
 }
 
 // Of a site that qualifies, infinity else.
@@ -43,7 +52,7 @@ float site_distance2(Surface s, vec3 position, vec3 normal) {
 
 #if SITE_SEARCH == SITE_SEARCH_LINEAR
 
-// Four sites a turn: drivers may bound the iterations of a shader (see loop_was_cut).
+// Four sites a turn: drivers may bound the turns of all loops together (shaders/README.md).
 Nearest nearest_site(Surface s, SiteRange sites_of) {
   uint first = sites_of.range.x;
   uint count = sites_of.range.y;
@@ -126,7 +135,7 @@ bool may_qualify(Surface s, uint bounds) {
   vec3 hi = vec3((uvec3(bounds) >> (shift + 3u * NORMAL_BOUND_BITS)) & NORMAL_BOUND_STEPS);
   vec3 scale = s.mesh_normal * (2.0 / float(NORMAL_BOUND_STEPS));
   vec3 cosines = max(lo * scale, hi * scale) - s.mesh_normal;
-  return cosines.x + cosines.y + cosines.z + COSINE_ROUNDING > parameters.rl.z;
+  return cosines.x + cosines.y + cosines.z + COSINE_ROUNDING > parameters.cell_normal_threshold;
 }
 
 // Wald 2022, "A Stack-Free Traversal Algorithm for Left-Balanced k-d Trees": node n, counted from 1, has the

@@ -1,10 +1,13 @@
 // Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then one
 // of its triangles by power; then a point uniform on it.
-#include "sampling/random.glsl"
+#include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
-#ifdef HAS_TABLE
-#include "learning/cells.glsl"
-#include "learning/columns.glsl"
+#include "sampling/random.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#if LIGHT_ACTIONS > 0
+#include "learning/actions.glsl"
+#include "learning/table.glsl"
 #endif
 
 struct LightSample {
@@ -27,18 +30,18 @@ uint alias_slot(uint word, uint count, out uint fraction) {
 
 // `cell`: that of the surface, NO_CELL where it has none.
 uint choose_light(int cell, uint word) {
-#if LIGHT_COLUMNS > 0
-  if (cell != NO_CELL) return choose_column(first_light(uint(cell)), uint(LIGHT_COLUMNS), word).column;
+#if LIGHT_ACTIONS > 0
+  if (cell != NO_CELL) return choose_action(first_light(uint(cell)), uint(LIGHT_ACTIONS), word).action;
 #endif
   uint fraction;
-  uint slot = alias_slot(word, parameters.path.z, fraction);
+  uint slot = alias_slot(word, parameters.lights, fraction);
   uvec4 link = light_link(slot);
   return fraction <= link.z ? slot : link.x;
 }
 
 float light_probability(int cell, uint light) {
-#if LIGHT_COLUMNS > 0
-  if (cell != NO_CELL) return column_probability(first_light(uint(cell)), uint(LIGHT_COLUMNS), light);
+#if LIGHT_ACTIONS > 0
+  if (cell != NO_CELL) return action_probability(first_light(uint(cell)), uint(LIGHT_ACTIONS), light);
 #endif
   return light_choice(light).x;
 }

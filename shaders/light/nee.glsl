@@ -1,17 +1,21 @@
 // Next event estimation: direct light of a scattering event by sampling the lights.
+#include "geometry/intersect.glsl"
+#include "geometry/scene.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
 #include "light/lights.glsl"
+#include "material/bsdf.glsl"
 #include "sampling/direction.glsl"
-#include "shared/statistics.glsl"
-
-// What a path has cost and taught so far.
-struct Tally {
-  uint rays;
-  uint segments;
-  uint lookups;
-  uint fallbacks;
-  uint updates;
-  uint saturated;
-};
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#if LIGHT_ACTIONS > 0
+#include "learning/gather.glsl"
+#include "learning/table.glsl"
+#endif
 
 // Power heuristic with exponent 2 for one sample of each (Veach 1997, section 9.2.4), kept from overflow.
 float power_heuristic(float pdf, float other) {
@@ -19,18 +23,14 @@ float power_heuristic(float pdf, float other) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-// The lesson of a light sample, hidden ones included: the square of what it contributes once its light is chosen.
-// Choosing lights by the root of its mean minimises the variance of one choice (Kahn & Marshall 1953); Vevoda,
-// Kondapaneni & Krivanek 2018 and Pantaleoni 2019 learn lights in this way. MIS weights are left out: they depend
-// on the choice itself.
-void learn_light(Event e, LightSample light, vec3 contribution, inout Tally tally) {
-#if LIGHT_COLUMNS > 0
-  float part = average(contribution) * light.probability * parameters.environment.w;
-  if (frame_teaches != 0u && e.cell.index != NO_CELL && is_finite(part)) {
-    ++tally.updates;
-    uint entry = first_light(uint(e.cell.index)) + light.light;
-    if (gather_light_target(entry, part * part)) ++tally.saturated;
-  }
+// The target of a light's value, of light samples that are hidden, too: the square of what the light contributes once it
+// is chosen. Choosing lights by the root of its mean minimises the variance of one choice (Kahn & Marshall 1953);
+// Vevoda, Kondapaneni & Krivanek 2018 and Pantaleoni 2019 learn lights in this way. MIS weights are left out: they
+// depend on the choice itself.
+void gather_light(Event e, LightSample light, vec3 contribution, inout Tally tally) {
+#if LIGHT_ACTIONS > 0
+  uint entry = e.cell.index != NO_CELL ? first_light(uint(e.cell.index)) + light.light : NO_ENTRY;
+  gather_square(tally, entry, average(contribution) * light.probability);
 #endif
 }
 
@@ -54,7 +54,7 @@ vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
     ++tally.rays;
     if (!is_occluded(light.origin, light.segment)) contribution = reflected / light.pdf;
   }
-  learn_light(e, light, contribution, tally);
+  gather_light(e, light, contribution, tally);
   if (contribution == vec3(0.0)) return contribution;
   return contribution * power_heuristic(light.pdf, direction_pdf(e, light.direction));
 }
@@ -66,7 +66,7 @@ float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int ce
 
 #elif NEE == NEE_TWO_RAY
 
-// The report's BSDF sample: what it meets counts where it is the light that was chosen. Environment is met too.
+// The BSDF sample of Goswami 2020: what it meets counts where it is the light that was chosen. Environment is met too.
 vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
   vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, u.yz, u.w);
   float pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
@@ -76,7 +76,7 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
     ++tally.rays;
     Hit hit = closest_hit(ray_origin(e.surface, wi), wi);
     if (hit.triangle == NO_TRIANGLE) {
-      result = weight * parameters.environment.rgb;
+      result = weight * parameters.environment;
     } else {
       Surface other = surface_at(hit, wi);
       LightTriangle triangle = light_triangle(other.light == NO_LIGHT ? 0u : other.light);
@@ -89,7 +89,7 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
   return result;
 }
 
-// The report's: a light sample and a BSDF sample towards the same light, power heuristic, both tested by a closest
+// That of Goswami 2020: a light sample and a BSDF sample towards the same light, power heuristic, both tested by a closest
 // hit. The path's own rays count no emission.
 vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
   LightSample light = sample_event_light(e, key, block);
@@ -99,7 +99,7 @@ vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
     ++tally.rays;
     if (closest_hit(light.origin, light.segment).t >= 1.0) contribution = reflected / light.pdf;
   }
-  learn_light(e, light, contribution, tally);
+  gather_light(e, light, contribution, tally);
   vec3 result = bsdf_light(e, light, random_units(key, block + BLOCK_TWO_RAY), tally);
   if (contribution == vec3(0.0)) return result;
   float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);

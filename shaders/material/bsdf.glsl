@@ -1,6 +1,8 @@
 // glTF 2.0 metallic-roughness (specification, Appendix B) with KHR_materials_specular.
 // Without HAS_SPECULAR every material of the scene is Lambert and nothing else is compiled.
+#include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
+#include "shared/math.glsl"
 
 struct Bsdf {
   vec3 base_color;

@@ -1,24 +1,26 @@
 #version 450 core
-// Adds a frame's samples to the sums of their pixels, and its counts to the statistics.
-#include "geometry/scene.glsl"
-#include "shared/statistics.glsl"
+// Adds a frame's samples to the sums of their pixels, and its counts to the counters.
 #include "passes/pixel_sum.glsl"
+#include "shared/counters.glsl"
+#include "shared/fetch.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
 FETCHED_UVEC4(samples, UNIT_SAMPLES);  // two elements for each pixel
-// What is stored is fetched too, as loads of scalars from storage are the slowest on llvmpipe: pixels belong to one
-// invocation, which fetches before it stores.
+// What is stored is fetched too (shaders/README.md): pixels belong to one invocation, which fetches before it stores.
 FETCHED_UVEC4(outlier_texels, UNIT_OUTLIERS);  // two elements for each pixel
 FETCHED_UVEC4(sum_texels, UNIT_SUMS);          // three elements for each pixel, two numbers in each
 layout(std430, binding = BINDING_SUMS) writeonly buffer SumBuffer { uvec4 sum_words[]; };
 layout(std430, binding = BINDING_OUTLIERS) buffer OutlierBuffer { PixelOutliers outliers[]; };
 
-shared uint group_counts[STATISTIC_PER_FRAME];
+shared uint group_counts[COUNTER_PER_FRAME];
 
 // What this invocation's pixels add.
 uint fireflies = 0u;
 uint clamped_samples = 0u;
-uint counts[STATISTIC_NON_FINITE];  // those before it
+uint counts[COUNTER_NON_FINITE];  // those before it
 
 void judge_firefly(uint index, vec3 radiance) {
   float brightness = average(radiance);
@@ -33,7 +35,7 @@ void judge_firefly(uint index, vec3 radiance) {
 
 // The sample, scaled down where its largest channel exceeds clamp_radiance; hue is kept.
 vec3 clamped(uint index, vec3 radiance) {
-  float limit = parameters.film.x;
+  float limit = parameters.clamp_radiance;
   float largest = max_component(radiance);
   if (limit == 0.0 || largest <= limit) return radiance;
   vec3 kept = radiance / largest * limit;
@@ -44,13 +46,13 @@ vec3 clamped(uint index, vec3 radiance) {
 }
 
 void count_sample(uvec4 tally, bool is_zero) {
-  counts[STATISTIC_RAYS] += tally.x;
-  counts[STATISTIC_SEGMENTS] += tally.y;
-  counts[STATISTIC_ZERO_PATHS] += is_zero ? 1u : 0u;
-  counts[STATISTIC_LOOKUPS] += tally.z & 0xffffu;
-  counts[STATISTIC_FALLBACKS] += tally.z >> 16u;
-  counts[STATISTIC_UPDATES] += tally.w & 0xffffu;
-  counts[STATISTIC_SATURATED] += tally.w >> 16u;
+  counts[COUNTER_RAYS] += tally.x;
+  counts[COUNTER_SEGMENTS] += tally.y;
+  counts[COUNTER_ZERO_PATHS] += is_zero ? 1u : 0u;
+  counts[COUNTER_LOOKUPS] += tally.z & 0xffffu;
+  counts[COUNTER_FALLBACKS] += tally.z >> 16u;
+  counts[COUNTER_UPDATES] += tally.w & 0xffffu;
+  counts[COUNTER_SATURATED] += tally.w >> 16u;
 }
 
 void add_sample(uint index, vec3 radiance) {
@@ -71,7 +73,7 @@ void add_pixel(uint index) {
     judge_firefly(index, radiance);
     add_sample(index, clamped(index, radiance));
   } else {
-    report_non_finite(uvec2(index % parameters.image.x, index / parameters.image.x), frame_number);
+    report_non_finite(uvec2(index % parameters.image_size.x, index / parameters.image_size.x), frame_number);
   }
   count_sample(fetch(samples, 2u * index + 1u), radiance == vec3(0.0));
 }
@@ -79,10 +81,10 @@ void add_pixel(uint index) {
 // Each invocation takes every 64th of its group's pixels: counts are then shared once for all of them.
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  if (lane < STATISTIC_PER_FRAME) group_counts[lane] = 0u;
-  for (uint i = 0u; i < STATISTIC_NON_FINITE; ++i) counts[i] = 0u;
+  if (lane < COUNTER_PER_FRAME) group_counts[lane] = 0u;
+  for (uint i = 0u; i < COUNTER_NON_FINITE; ++i) counts[i] = 0u;
   barrier();
-  uint pixels = parameters.image.x * parameters.image.y;
+  uint pixels = parameters.image_size.x * parameters.image_size.y;
   uint index = gl_WorkGroupID.x * ACCUMULATE_GROUP_PIXELS + lane;
   uint end = min(index + ACCUMULATE_GROUP_PIXELS, pixels);
   bool more = index < end;
@@ -94,11 +96,11 @@ void main() {
     }
   } while (more);
   if (more) report_cut(uvec2(index, 0u));
-  for (uint i = 0u; i < STATISTIC_NON_FINITE; ++i) {
+  for (uint i = 0u; i < COUNTER_NON_FINITE; ++i) {
     if (counts[i] != 0u) atomicAdd(group_counts[i], counts[i]);
   }
-  if (fireflies != 0u) atomicAdd(group_counts[STATISTIC_FIREFLIES], fireflies);
-  if (clamped_samples != 0u) atomicAdd(group_counts[STATISTIC_CLAMPED], clamped_samples);
+  if (fireflies != 0u) atomicAdd(group_counts[COUNTER_FIREFLIES], fireflies);
+  if (clamped_samples != 0u) atomicAdd(group_counts[COUNTER_CLAMPED], clamped_samples);
   barrier();
-  if (lane < STATISTIC_PER_FRAME) count(lane, group_counts[lane]);
+  if (lane < COUNTER_PER_FRAME) count(lane, group_counts[lane]);
 }

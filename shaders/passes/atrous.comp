@@ -21,22 +21,22 @@ float squared_length(vec3 v) {
 
 // Product of the edge-stopping functions. `alike`: the channels that mix.
 float likeness(uint p, uint q, vec3 alike) {
-  float x = squared_length((source[p].rgb - source[q].rgb) * alike) * constants.falloff.x +
-            squared_length(guides[p].normal.xyz - guides[q].normal.xyz) * constants.falloff.y +
-            squared_length(guides[p].position.xyz - guides[q].position.xyz) * constants.falloff.z;
+  float x = squared_length((source[p].rgb - source[q].rgb) * alike) * constants.radiance_falloff +
+            squared_length(guides[p].normal.xyz - guides[q].normal.xyz) * constants.normal_falloff +
+            squared_length(guides[p].position.xyz - guides[q].position.xyz) * constants.position_falloff;
   return x < MOST_EXPONENT ? exp(-x) : 0.0;
 }
 
 void main() {
   uint p = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
-  ivec2 size = ivec2(constants.image.xy);
-  if (p >= constants.image.x * constants.image.y) return;
-  ivec2 pixel = ivec2(p % constants.image.x, p / constants.image.x);
+  ivec2 size = ivec2(constants.image_size);
+  if (p >= constants.image_size.x * constants.image_size.y) return;
+  ivec2 pixel = ivec2(p % constants.image_size.x, p / constants.image_size.x);
   vec3 sum = vec3(0.0);
   vec3 weights = vec3(0.0);
   for (int j = -2; j <= 2; ++j) {
     for (int i = -2; i <= 2; ++i) {
-      ivec2 tap = pixel + int(constants.image.z) * ivec2(i, j);
+      ivec2 tap = pixel + int(constants.spacing) * ivec2(i, j);
       if (all(greaterThanEqual(tap, ivec2(0))) && all(lessThan(tap, size))) {
         uint q = uint(tap.y * size.x + tap.x);
         // A channel that was divided by its albedo says nothing to one that was not.

@@ -1,15 +1,21 @@
 #version 450 core
 // What the ray through each pixel's centre meets first.
-#include "geometry/surface.glsl"
 #include "geometry/camera.glsl"
-#include "shared/statistics.glsl"
+#include "geometry/intersect.glsl"
+#include "geometry/scene.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer FirstHitBuffer { FirstHit first_hits[]; };
 
 void main() {
   uvec2 pixel = pixel_of_invocation();
-  if (any(greaterThanEqual(pixel, parameters.image.xy))) return;
+  if (any(greaterThanEqual(pixel, parameters.image_size))) return;
   vec3 direction = camera_direction(vec2(pixel) + 0.5);
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
@@ -18,6 +24,6 @@ void main() {
     first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(base_color_of(s.material).rgb, 1.0),
                      vec4(emitted_radiance(s), 1.0));
   }
-  first_hits[pixel.y * parameters.image.x + pixel.x] = first;
+  first_hits[pixel.y * parameters.image_size.x + pixel.x] = first;
   if (loop_was_cut) report_cut(pixel);
 }

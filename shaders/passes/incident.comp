@@ -1,14 +1,18 @@
 #version 450 core
 // What arrives from all directions at the surface behind the centre of pixel (PIXEL_X, PIXEL_Y), which belongs to a
 // cell: the hemisphere about its normal as a square image of HEMISPHERE_SIZE, one path for each pixel of it.
-#include "shared/variants.glsl"
-#include "sampling/random.glsl"
-// Before the paths, which have no table here and would leave these out.
-#include "learning/cells.glsl"
-#include "learning/bins.glsl"
-#include "passes/path.glsl"
 #include "geometry/camera.glsl"
-#include "shared/statistics.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
+#include "learning/bins.glsl"
+#include "learning/cells.glsl"
+#include "path/trace.glsl"
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer IncidentBuffer { Incident incidents[]; };
@@ -40,13 +44,15 @@ void main() {
   uvec2 pixel = pixel_of_invocation();
   if (any(greaterThanEqual(pixel, uvec2(HEMISPHERE_SIZE)))) return;
   uint index = pixel.y * uint(HEMISPHERE_SIZE) + pixel.x;
-  RandomKey key = RandomKey(index, frame_number, parameters.image.z);
+  RandomKey key = RandomKey(index, frame_number, parameters.seed);
   vec3 view = camera_direction(vec2(PIXEL_X, PIXEL_Y) + 0.5);
   Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, view), view);
   vec2 p = to_disk(vec2(pixel) + random_units(key, BLOCK_CAMERA).xy);
   uint bin = bin_on_disk(p);
   vec3 radiance = bin == NO_BIN ? vec3(0.0) : incident_radiance(key, s, from_disk(p));
-  incidents[index].radiance = vec4(radiance, bin == NO_BIN ? 0.0 : bin_cosine(bin));
-  incidents[index].bins = uvec4(bin_on_disk(to_disk(vec2(pixel) + 0.5)), bin, 0u, 0u);
+  incidents[index].radiance = radiance;
+  incidents[index].bin_cosine = bin == NO_BIN ? 0.0 : bin_cosine(bin);
+  incidents[index].centre_bin = bin_on_disk(to_disk(vec2(pixel) + 0.5));
+  incidents[index].path_bin = bin;
   if (loop_was_cut) report_cut(pixel);
 }

@@ -1,10 +1,17 @@
 #version 450 core
 // The table before anything is learned. One invocation per cell.
-#include "shared/variants.glsl"
 #include "geometry/scene.glsl"
-#include "sampling/random.glsl"
 #include "learning/table.glsl"
-#include "shared/statistics.glsl"
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#if SAMPLER == SAMPLER_RL
+#include "learning/bins.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_Q_VALUES) restrict writeonly buffer QValueBuffer { float q_values[]; };
@@ -18,11 +25,11 @@ const uint FRAME_OF_TABLE = 0u;
 
 float initial_value(uint cell, uint bin) {
 #if INITIAL_TABLE == INITIAL_CONSTANT
-  return parameters.learning.z;
+  return parameters.initial_value;
 #elif INITIAL_TABLE == INITIAL_RANDOM
-  return parameters.learning.z * random_units(RandomKey(cell, FRAME_OF_TABLE, parameters.image.z), bin).x;
+  return parameters.initial_value * random_units(RandomKey(cell, FRAME_OF_TABLE, parameters.seed), bin).x;
 #elif INITIAL_TABLE == INITIAL_COSINE
-  return parameters.learning.z * bin_cosine(bin);
+  return parameters.initial_value * bin_cosine(bin);
 #else
   return 0.0;
 #endif
@@ -40,7 +47,7 @@ void initialize_bins(uint cell) {
 
 #endif
 
-#if LIGHT_COLUMNS > 0
+#if LIGHT_ACTIONS > 0
 
 // A cell is no point and no plane: surfaces in it may face a light that its middle does not.
 const float LEAST_COSINE = 0.1;
@@ -65,11 +72,11 @@ float guess(uint cell, uint light) {
 void initialize_lights(uint cell) {
   uint light = 0u;
   do {
-    q_values[first_light(cell) + light] = parameters.learning.w > 0.0 ? guess(cell, light) : 0.0;
-    q_visits[first_light(cell) + light] = uint(parameters.learning.w);
+    q_values[first_light(cell) + light] = parameters.light_prior > 0u ? guess(cell, light) : 0.0;
+    q_visits[first_light(cell) + light] = parameters.light_prior;
     ++light;
-  } while (light < uint(LIGHT_COLUMNS));
-  loop_was_cut = loop_was_cut || light < uint(LIGHT_COLUMNS);
+  } while (light < uint(LIGHT_ACTIONS));
+  loop_was_cut = loop_was_cut || light < uint(LIGHT_ACTIONS);
 }
 
 #endif
@@ -87,14 +94,14 @@ void initialize_mixture(uint cell) {
 
 void main() {
   uint cell = gl_WorkGroupID.x * LEARN_GROUP + gl_LocalInvocationID.x;
-  if (cell >= parameters.path.w) return;
+  if (cell >= parameters.cells) return;
 #if SAMPLER == SAMPLER_RL
   initialize_bins(cell);
 #endif
 #ifdef LEARNS_MIXTURE
   initialize_mixture(cell);
 #endif
-#if LIGHT_COLUMNS > 0
+#if LIGHT_ACTIONS > 0
   initialize_lights(cell);
 #endif
   if (loop_was_cut) report_cut(uvec2(cell, 0u));

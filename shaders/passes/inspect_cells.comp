@@ -1,20 +1,25 @@
 #version 450 core
 // The cell of what the ray through each pixel's centre meets first.
-#include "shared/variants.glsl"
-#include "learning/cells.glsl"
 #include "geometry/camera.glsl"
-#include "shared/statistics.glsl"
+#include "geometry/intersect.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
+#include "learning/cells.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer PixelCellBuffer { int pixel_cells[]; };
 
 void main() {
   uvec2 pixel = pixel_of_invocation();
-  if (any(greaterThanEqual(pixel, parameters.image.xy))) return;
+  if (any(greaterThanEqual(pixel, parameters.image_size))) return;
   vec3 direction = camera_direction(vec2(pixel) + 0.5);
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
   int cell = NO_CELL;
   if (hit.triangle != NO_TRIANGLE) cell = find_cell(surface_at(hit, direction)).index;
-  pixel_cells[pixel.y * parameters.image.x + pixel.x] = cell;
+  pixel_cells[pixel.y * parameters.image_size.x + pixel.x] = cell;
   if (loop_was_cut) report_cut(pixel);
 }

@@ -1,4 +1,5 @@
 // The film's sums. In double precision: plain floats stop growing where a sample is below the last place of the sum.
+#include "shared/structs.glsl"
 
 PixelSum with_sample(PixelSum sum, vec3 radiance) {
   dvec3 x = dvec3(radiance);

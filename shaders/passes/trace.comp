@@ -1,19 +1,22 @@
 #version 450 core
 // One sample per pixel: a path from the camera, at most max_bounces scattering events.
-#include "shared/variants.glsl"
-#include "sampling/random.glsl"
-#include "passes/path.glsl"
 #include "geometry/camera.glsl"
-#include "shared/statistics.glsl"
+#include "path/path.glsl"
+#include "path/trace.glsl"
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_SAMPLES) restrict writeonly buffer SampleBuffer { PixelSample samples[]; };
 
 void main() {
   uvec2 pixel = pixel_of_invocation();
-  if (any(greaterThanEqual(pixel, parameters.image.xy))) return;
-  uint index = pixel.y * parameters.image.x + pixel.x;
-  RandomKey key = RandomKey(index, frame_number, parameters.image.z);
+  if (any(greaterThanEqual(pixel, parameters.image_size))) return;
+  uint index = pixel.y * parameters.image_size.x + pixel.x;
+  RandomKey key = RandomKey(index, frame_number, parameters.seed);
   vec2 jitter = random_units(key, BLOCK_CAMERA).xy;
   Path path = trace(key, parameters.camera_origin.xyz, camera_direction(vec2(pixel) + jitter));
   samples[index].radiance = vec4(path.radiance, 0.0);

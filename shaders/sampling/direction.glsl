@@ -1,8 +1,19 @@
 // How a path goes on: the run's direction sampler and its density.
+#include "geometry/surface.glsl"
 #include "material/bsdf.glsl"
-#include "light/lights.glsl"
+#include "sampling/random.glsl"
+#include "shared/fetch.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#ifdef HAS_TABLE
+#include "learning/cell.glsl"
+#endif
 #if SAMPLER == SAMPLER_RL
+#include "learning/bins.glsl"
 #include "learning/qtable.glsl"
+#include "learning/table.glsl"
 #endif
 
 // A scattering event: everything that the choice of a direction depends on.
@@ -52,7 +63,7 @@ float bsdf_share_of(Event e) {
 #endif
   return share;
 #else
-  return parameters.rl.x;
+  return parameters.bsdf_fraction;
 #endif
 }
 
@@ -69,8 +80,7 @@ struct Drawn {
   uint bin;
 };
 
-// By the table from the bin `chosen`, or by the BSDF. llvmpipe computes both sides of a branch: as much as can be is
-// therefore done once for both.
+// By the table from the bin `chosen`, or by the BSDF; as much as can be is done once for both (shaders/README.md).
 Drawn draw(Event e, bool by_table, uint chosen, vec2 u, float u_lobe) {
 #ifdef HAS_SPECULAR
   Drawn drawn = Drawn(to_world(direction_in_bin(chosen, u), e.cell.tangent, e.surface.normal), chosen);
@@ -89,7 +99,7 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   uint cell = e.is_guided ? uint(e.cell.index) : 0u;
   Choice choice = choose_bin(cell, bits.w);
   bool by_table = e.is_guided && to_unit(bits.x) >= e.bsdf_share;
-  Drawn drawn = draw(e, by_table, choice.column, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
+  Drawn drawn = draw(e, by_table, choice.action, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
   float table = bin_pdf(choice.probability);
 #ifdef MIXES_BSDF
   if (!by_table) table = table_pdf(cell, drawn.bin);

@@ -1,9 +1,8 @@
 // Buffers that a shader only reads, fetched element by element in the way that suits the driver (engine/gpu/fetch.h).
 //   FETCHED_VEC4(name, unit); ... vec4 x = fetch(name, i);      the same for FETCHED_UVEC4
 //   FETCHED_UINT(name, unit); ... uint x = fetch_one(name, i);  the same for FETCHED_FLOAT
-#define FETCH_TEXTURE 0
-#define FETCH_IMAGE 1
-#define FETCH_STORAGE 2
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
 
 #if FETCH == FETCH_IMAGE
 

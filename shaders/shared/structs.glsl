@@ -1,9 +1,10 @@
 // What the host writes and the shaders read. This file is compiled by both: as GLSL through #include, as
-// C++ by engine/gpu/structs.h. Members are vec4, uvec4 and scalars only, so that std430, std140 and C++ agree
-// (tests/gpu/layout_test.cpp compares every offset with the driver's). Integers that share a vec4 with
+// C++ by engine/gpu/structs.h. Members are vec4, uvec4 and scalars, vec3 and uvec3 with a scalar behind them, and uvec2
+// at multiples of 8 bytes, so that std430, std140 and C++ agree (tests/gpu/layout_test.cpp compares every offset with
+// the driver's). Integers that share a vec4 with
 // floats are stored by their bits: floatBitsToUint() reads them.
 
-// Of the report's bounding volume hierarchy, in preorder; the hit link of an inner node is the next node.
+// Of the bounding volume hierarchy of Goswami 2020, in preorder; the hit link of an inner node is the next node.
 struct Node {
   vec4 lo;  // xyz: lower corner, w: bits of the leaf's triangles (first << LEAF_BITS | count), 0 for inner nodes
   vec4 hi;  // xyz: upper corner, w: bits of the miss link, NO_NODE at the end
@@ -64,7 +65,7 @@ struct Light {
                 // of both faces together
 };
 
-// What a row of the table stands for.
+// What a state of the table stands for.
 struct CellPlace {
   vec4 position;
   vec4 normal;  // unit, on the side that the cell is on
@@ -84,7 +85,7 @@ struct SiteRange {
   vec4 frame;   // xyz: lower corner of the grid, w: boxes per unit
 };
 
-// Head of the list of cells that a frame taught something: the size of learn.comp's dispatch, and the list's length.
+// Head of the list of cells that a frame has gathered targets for: the size of learn.comp's dispatch, and the list's length.
 struct TouchedHead {
   uint groups_x;  // of LEARN_GROUP cells
   uint groups_y;  // 1
@@ -162,14 +163,21 @@ struct FilterGuide {
 
 // Constants of one of its passes (a uniform block).
 struct FilterPass {
-  uvec4 image;   // x: width, y: height, z: pixels from tap to tap
-  vec4 falloff;  // 1 / sigma^2 of x: radiance in this pass, y: normal, z: position
+  uvec2 image_size;  // width, height
+  uint spacing;      // pixels from tap to tap
+  float radiance_falloff;  // 1 / sigma^2, of this pass
+  float normal_falloff;    // 1 / sigma^2
+  float position_falloff;  // 1 / sigma^2
+  uvec2 unused;
 };
 
 // What arrives at a point of the hemisphere about a hit, by one path (incident.comp).
 struct Incident {
-  vec4 radiance;  // rgb, w: mean cosine of the bin that the path's first direction lies in
-  uvec4 bins;     // x: of the pixel's centre, NO_BIN outside the disk, y: of the path, NO_BIN where there is none
+  vec3 radiance;
+  float bin_cosine;  // mean over path_bin
+  uint centre_bin;   // of the pixel's centre, NO_BIN outside the disk
+  uint path_bin;     // that the path's first direction lies in, NO_BIN where there is no path
+  uvec2 unused;
 };
 
 // Constants of a run (a uniform block).
@@ -178,15 +186,30 @@ struct Parameters {
   vec4 camera_right;    // scaled by tan(fov / 2) * aspect
   vec4 camera_up;       // scaled by tan(fov / 2)
   vec4 camera_forward;  // unit
-  vec4 environment;     // rgb: constant radiance, w: 1 / mean radiance of the brightest light or of the environment
-  vec4 rl;              // x: bsdf_fraction, y: bin_floor, z: cell_normal_threshold, w: light_floor
-  vec4 learning;        // x: rate_constant, y: rate_exponent, z: initial_value, w: light_prior
-  vec4 film;            // x: clamp_radiance, 0 where nothing is clamped
-  vec4 shaping;         // x: shrinkage, y: roulette_scale, z: guided_bounces
-  uvec4 image;          // x: width, y: height, z: seed
-  uvec4 path;           // x: max_bounces, y: russian_roulette_start, z: lights, w: cells
-  vec4 grid;            // of cells grid: xyz: lower corner, w: boxes per unit
-  uvec4 grid_boxes;     // of cells grid: x, y, z: along each axis
+  vec3 environment;     // constant radiance
+  float inverse_brightest;  // 1 / mean radiance of the brightest light or of the environment
+  vec3 grid_origin;     // of cells grid: lower corner
+  float grid_boxes_per_unit;
+  uvec3 grid_boxes;     // along each axis
+  uint cells;
+  uvec2 image_size;     // width, height
+  uint seed;
+  uint lights;
+  uint light_prior;
+  uint max_bounces;
+  uint russian_roulette_start;
+  uint guided_bounces;
+  float clamp_radiance;  // 0 where nothing is clamped
+  float bsdf_fraction;
+  float bin_floor;
+  float light_floor;
+  float cell_normal_threshold;
+  float rate_constant;
+  float rate_exponent;
+  float initial_value;
+  float shrinkage;
+  float roulette_scale;
+  uvec2 unused;
 };
 
 const int BINDING_PARAMETERS = 0;
@@ -194,11 +217,11 @@ const int BINDING_NODE_GRID = 1;  // uniform
 const int BINDING_Q_VALUES = 7;
 const int BINDING_Q_VISITS = 8;
 const int BINDING_TARGET_SUMS = 9;
-const int BINDING_COLUMN_STARTS = 10;
+const int BINDING_ACTION_STARTS = 10;
 const int BINDING_NEXT_VALUES = 11;
 const int BINDING_SAMPLES = 12;
 const int BINDING_SUMS = 13;
-const int BINDING_STATISTICS = 14;
+const int BINDING_COUNTERS = 14;
 const int BINDING_OUTPUT = 15;  // first hits, and whatever a test's shader writes
 const int BINDING_TOUCHED_CELLS = 17;
 const int BINDING_CELL_PLACES = 18;
@@ -217,9 +240,9 @@ const int UNIT_MATERIALS = 3;
 const int UNIT_LIGHTS = 4;
 const int UNIT_LIGHT_TRIANGLES = 5;
 const int UNIT_SITES = 6;
-const int UNIT_GRID_ROWS = UNIT_SITES;  // cells are either around sites or of a grid
+const int UNIT_GRID_STATES = UNIT_SITES;  // cells are either around sites or of a grid
 const int UNIT_SITE_LISTS = 7;
-const int UNIT_COLUMN_STARTS = 8;
+const int UNIT_ACTION_STARTS = 8;
 const int UNIT_NEXT_VALUES = 9;
 const int UNIT_Q_VALUES = 10;
 const int UNIT_SAMPLES = 11;
@@ -242,7 +265,7 @@ const uint NO_LIGHT = 0xffffffffu;
 const int NO_CELL = -1;             // of a hit
 const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table
-const uint SHARE_BSDF = 0u;  // columns of the mixture
+const uint SHARE_BSDF = 0u;  // actions of the mixture
 const uint SHARE_TABLE = 1u;
 const uint LEAF_BITS = 4u;
 const uint LEAF_LINK = 0x80000000u;
@@ -266,26 +289,26 @@ const float LIGHT_TARGET_UNIT = 1.0f / 68719476736.0f;
 // One target is clamped to this many units (2^48): as one step, far below a full sum.
 const float TARGET_LIMIT = 281474976710656.0f;
 
-// Statistics of a frame: 64-bit counters, low and high word. The last ones stay over all frames.
-const uint STATISTIC_RAYS = 0u;
-const uint STATISTIC_SEGMENTS = 1u;
-const uint STATISTIC_ZERO_PATHS = 2u;
-const uint STATISTIC_LOOKUPS = 3u;
-const uint STATISTIC_FALLBACKS = 4u;
-const uint STATISTIC_UPDATES = 5u;
-const uint STATISTIC_SATURATED = 6u;
-const uint STATISTIC_NON_FINITE = 7u;
-const uint STATISTIC_FIREFLIES = 8u;
-const uint STATISTIC_CLAMPED = 9u;
-const uint STATISTIC_PER_FRAME = 10u;
-const uint STATISTIC_ALL_NON_FINITE = 10u;
-const uint STATISTIC_LOOPS_CUT = 11u;
-const uint STATISTIC_COUNT = 12u;
+// Counters of a frame, of 64 bits: low and high word. The last ones stay over all frames.
+const uint COUNTER_RAYS = 0u;
+const uint COUNTER_SEGMENTS = 1u;
+const uint COUNTER_ZERO_PATHS = 2u;
+const uint COUNTER_LOOKUPS = 3u;
+const uint COUNTER_FALLBACKS = 4u;
+const uint COUNTER_UPDATES = 5u;
+const uint COUNTER_SATURATED = 6u;
+const uint COUNTER_NON_FINITE = 7u;
+const uint COUNTER_FIREFLIES = 8u;
+const uint COUNTER_CLAMPED = 9u;
+const uint COUNTER_PER_FRAME = 10u;
+const uint COUNTER_ALL_NON_FINITE = 10u;
+const uint COUNTER_LOOPS_CUT = 11u;
+const uint COUNTER_COUNT = 12u;
 const uint MAX_LOCATIONS = 64u;
 
-struct Statistics {
-  uvec2 cut_pixel;                     // one of those where a loop was cut
+struct Counters {
+  uvec2 cut_pixel;                 // one of those where a loop was cut
   uvec2 unused;
-  uvec4 locations[MAX_LOCATIONS];      // of non-finite samples: x, y, frame
-  uint counters[2u * STATISTIC_COUNT];  // low and high words
+  uvec4 locations[MAX_LOCATIONS];  // of non-finite samples: x, y, frame
+  uint words[2u * COUNTER_COUNT];  // low and high
 };

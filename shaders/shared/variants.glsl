@@ -1,4 +1,5 @@
-// Values of the compile-time choices, in the order of the enums of engine/core/settings.h.
+// Values of the compile-time choices. The host compiles this file, too: that they are those of its enums is asserted in
+// engine/tracer/shader_variant.cpp.
 #define SAMPLER_BSDF 0
 #define SAMPLER_UNIFORM 1
 #define SAMPLER_RL 2
@@ -34,3 +35,6 @@
 #define SITE_SEARCH_LINEAR 2
 #define BVH_SAH 0
 #define BVH_THREADED 1
+#define FETCH_TEXTURE 0
+#define FETCH_IMAGE 1
+#define FETCH_STORAGE 2

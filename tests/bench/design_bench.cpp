@@ -1,5 +1,6 @@
 #include "tests/bench/design_bench.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/gpu/driver.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
@@ -11,13 +12,14 @@
 #include "tests/bench/rounds.h"
 #include "tests/bench/scenes.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
 namespace qtrace::bench {
 namespace {
 
-constexpr int kBounces = 5;  // the report's
+constexpr int kBounces = 5;  // Goswami's
 
 // A wavefront keeps its paths in memory between passes: origin, direction, throughput and radiance with what
 // fits beside them. Each scattering event reads them and writes them once.

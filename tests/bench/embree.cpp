@@ -42,6 +42,23 @@ void set_ray(RTCRay& ray, const BenchRay& from, float most) {
   ray.flags = 0;
 }
 
+#if QTRACE_EMBREE == 3
+void intersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+
+void occlude(RTCScene scene, RTCRay& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &query);
+}
+#else
+void intersect(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query); }
+void occlude(RTCScene scene, RTCRay& query) { rtcOccluded1(scene, &query); }
+#endif
+
 void copy_vertices(RTCGeometry geometry, const Scene& scene) {
   const std::size_t count = scene.triangles.size();
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -78,15 +95,13 @@ EmbreeScene::EmbreeScene(const Scene& scene, unsigned threads)
 void EmbreeScene::closest_hits(const std::vector<BenchRay>& rays, std::vector<Answer>& answers) const {
   answers.resize(rays.size());
   in_chunks(rays.size(), threads_, [&](std::size_t first, std::size_t end) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t i = first; i < end; ++i) {
       RTCRayHit query;
       set_ray(query.ray, rays[i], std::numeric_limits<float>::infinity());
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.primID = RTC_INVALID_GEOMETRY_ID;
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_.get(), &context, &query);
+      intersect(scene_.get(), query);
       answers[i] = {query.ray.tfar, query.hit.primID};
     }
   });
@@ -95,12 +110,10 @@ void EmbreeScene::closest_hits(const std::vector<BenchRay>& rays, std::vector<An
 void EmbreeScene::occlusions(const std::vector<BenchRay>& rays, std::vector<Answer>& answers) const {
   answers.resize(rays.size());
   in_chunks(rays.size(), threads_, [&](std::size_t first, std::size_t end) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t i = first; i < end; ++i) {
       RTCRay query;
       set_ray(query, rays[i], 1);
-      rtcOccluded1(scene_.get(), &context, &query);
+      occlude(scene_.get(), query);
       answers[i] = {query.tfar < 0 ? 1.0F : 0.0F, RTC_INVALID_GEOMETRY_ID};
     }
   });

@@ -1,10 +1,14 @@
-// Embree 3, as its users call it: one ray at a time, on the threads that it builds with.
+// Embree 3 or 4, as its users call it: one ray at a time, on the threads that it builds with.
 #pragma once
 
 #include "engine/scene/scene.h"
 #include "tests/bench/rays.h"
 
+#if QTRACE_EMBREE == 3
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 
 #include <memory>
 #include <vector>

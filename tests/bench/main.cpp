@@ -1,8 +1,10 @@
 // Speed: ./dev bench.
 #include "engine/core/check.h"
 #include "experiments/files/atomic_file.h"
+#include "experiments/runtime/driver_store.h"
 #include "experiments/runtime/manifest.h"
 #include "tests/bench/design_bench.h"
+#include "tests/bench/embree.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/limit_bench.h"
@@ -10,7 +12,6 @@
 #include "tests/bench/scenes.h"
 #include "tests/bench/step_bench.h"
 
-#include <embree3/rtcore.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -88,7 +89,7 @@ void write_manifest(const std::filesystem::path& out, const gpu::DeviceInfo& dev
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("What takes time, and ray queries beside Embree 3", "qtrace_bench");
+  CLI::App app("What takes time, and ray queries beside Embree's", "qtrace_bench");
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   const Effort& effort = options.quick ? kQuick : kFull;
@@ -102,9 +103,11 @@ int run(int argc, char** argv) {
   options.rays.rounds = chosen(rounds, effort.ray_rounds);
   options.rays.size = chosen(size, effort.ray_size);
   const std::filesystem::path& out = options.rays.out;
-  const gpu::Context context(options.device);
-  fmt::print("{}, Embree 3 on {} threads; each figure is a median [and quartiles] over rounds\n",
-             context.device().renderer, options.rays.threads);
+  gpu::Context context(options.device);
+  experiments::Progress progress(experiments::Progress::Mode::lines);
+  experiments::choose_driver(context, progress);
+  fmt::print("{}, Embree {} on {} threads; each figure is a median [and quartiles] over rounds\n",
+             context.device().renderer, RTC_VERSION_STRING, options.rays.threads);
   std::filesystem::create_directories(out);
   write_manifest(out, context.device(), options.rays.threads);
   if (wants("rays")) bench_rays(context, options.rays);

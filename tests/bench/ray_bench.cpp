@@ -1,5 +1,6 @@
 #include "tests/bench/ray_bench.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "experiments/files/atomic_file.h"
 #include "experiments/files/csv.h"

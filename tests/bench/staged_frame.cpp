@@ -1,5 +1,6 @@
 #include "tests/bench/staged_frame.h"
 
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/gpu/driver.h"
 #include "engine/gpu/program.h"
@@ -16,13 +17,13 @@ namespace qtrace::bench {
 namespace {
 
 // Stand between two includes of trace.comp: behind the functions that they replace, before their use.
-// parameters.film.x is clamp_radiance, which is 0 here.
+// parameters.clamp_radiance is 0 here.
 constexpr std::string_view kCellTwice = R"(
 #include "learning/cells.glsl"
 Cell find_cell_twice(Surface s) {
   Cell first = find_cell(s);
-  s.position += parameters.film.x;
-  s.mesh_normal += parameters.film.x;
+  s.position += parameters.clamp_radiance;
+  s.mesh_normal += parameters.clamp_radiance;
   Cell second = find_cell(s);
   return Cell(max(first.index, second.index), max(first.tangent, second.tangent));
 }
@@ -32,15 +33,15 @@ constexpr std::string_view kDirectionTwice = R"(
 #include "sampling/direction.glsl"
 DirectionSample sample_direction_twice(Event e, uvec4 bits) {
   DirectionSample first = sample_direction(e, bits);
-  bits += uint(parameters.film.x);
-  e.cell.tangent += parameters.film.x;
+  bits += uint(parameters.clamp_radiance);
+  e.cell.tangent += parameters.clamp_radiance;
   DirectionSample second = sample_direction(e, bits);
   return DirectionSample(max(first.direction, second.direction), max(first.pdf, second.pdf),
                          max(first.bsdf, second.bsdf), max(first.entry, second.entry), max(first.share, second.share));
 }
 float direction_pdf_twice(Event e, vec3 wi) {
   float first = direction_pdf(e, wi);
-  wi += parameters.film.x;
+  wi += parameters.clamp_radiance;
   return max(first, direction_pdf(e, wi));
 }
 #define sample_direction sample_direction_twice
@@ -48,7 +49,7 @@ float direction_pdf_twice(Event e, vec3 wi) {
 )";
 constexpr std::string_view kNoTargets = R"(
 #include "learning/cells.glsl"
-#include "learning/columns.glsl"
+#include "learning/actions.glsl"
 #define gather_target(entry, target) false
 #define gather_light_target(entry, target) false
 )";
@@ -58,7 +59,7 @@ constexpr std::array<std::string_view, kTraceForms.size()> kChanges{"", kCellTwi
                                                                     kNoTargets};
 
 gpu::Program program_of(TraceForm form, const gpu::Defines& defines) {
-  constexpr std::string_view kBefore = "#include \"passes/path.glsl\"\n";
+  constexpr std::string_view kBefore = "#include \"path/path.glsl\"\n";
   std::string text(gpu::shader_file("passes/trace.comp"));
   const std::size_t place = text.find(kBefore);
   check(place != std::string::npos, "trace.comp does not include path.glsl any more");
@@ -77,7 +78,7 @@ StagedFrame::StagedFrame(const gpu::Context& context, const Scene& scene, const 
     : buffers_(scene, build_bvh(scene, settings.bvh), settings.lights),
       settings_(effective_settings(settings, buffers_.features())),
       defines_(shader_defines(settings_, buffers_.features())),
-      table_(scene, settings_.rl, table_columns(settings_, buffers_.features()), defines_,
+      table_(scene, settings_.rl, table_actions(settings_, buffers_.features()), defines_,
              context.programs()),
       film_(settings_.width, settings_.height, context.programs()),
       parameters_("parameters", sizeof(gpu::Parameters)),

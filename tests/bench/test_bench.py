@@ -118,7 +118,7 @@ class BenchTest(unittest.TestCase):
     def test_the_page_and_what_was_measured_on(self) -> None:
         self.assertTrue((self.out / "bench.png").read_bytes().startswith(b"\x89PNG"))
         manifest = json.loads((self.out / "manifest.json").read_text())
-        self.assertTrue(manifest["embree"].startswith("3."))
+        self.assertIn(manifest["embree"][:2], ("3.", "4."))
 
     def test_what_is_wrong_is_said_before_the_work(self) -> None:
         for arguments, words in {("--scenes", "room:7"): "room: is followed by a number of triangles",

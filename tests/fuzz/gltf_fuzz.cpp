@@ -5,6 +5,7 @@
 #include "tests/fuzz/expect.h"
 #include "tests/fuzz/json_mutator.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qtrace::fuzz {

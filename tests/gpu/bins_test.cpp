@@ -2,6 +2,7 @@
 #include "tests/support/learning_stage.h"
 #include "tests/support/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qtrace::test {

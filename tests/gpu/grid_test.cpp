@@ -1,4 +1,5 @@
 // What the device finds in the grid of cells: the box that the hit lies in, and the axis of its normal.
+#include "engine/accel/build_bvh.h"
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gltf/load_gltf.h"
@@ -7,7 +8,7 @@
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -26,7 +27,7 @@ Scene shipped(const std::string& name) {
 
 RenderSettings grid_settings(int resolution) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = kSize;
   settings.rl.cells = CellKind::grid;
   settings.rl.grid_resolution = resolution;
@@ -37,9 +38,9 @@ RenderSettings grid_settings(int resolution) {
 // vectors.
 std::vector<glm::vec4> hits(const gpu::Defines& defines, const std::string& vector) {
   return probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl"}, "",
+      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
       "uint pixel = index >> 1;\n"
-      "vec3 d = camera_direction(vec2(pixel % parameters.image.x, pixel / parameters.image.x) + 0.5);\n"
+      "vec3 d = camera_direction(vec2(pixel % parameters.image_size.x, pixel / parameters.image_size.x) + 0.5);\n"
       "Hit hit = closest_hit(parameters.camera_origin.xyz, d);\n"
       "result = vec4(-2.0);\n"
       "if (hit.triangle == NO_TRIANGLE) { results[index] = result; return; }\n"

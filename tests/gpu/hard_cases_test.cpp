@@ -2,7 +2,7 @@
 // `hard` (what is hard), `expected` and `measured`.
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <fmt/format.h>
@@ -118,7 +118,7 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
   constexpr float kAlbedo = 0.5F;
   const Scene scene = furnace_box(kAlbedo, 1);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 3;
   settings.rl.sites_per_object = 4;
@@ -164,17 +164,17 @@ TEST_F(HardCases, TargetsBeyondTheFixedPointAreCounted) {
   probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                     "gather_target(1u, 0.875 * TARGET_LIMIT * TARGET_UNIT); result = uvec4(0u);", kTargets,
                     defines_);
-  statistics_.bind_storage(gpu::BINDING_STATISTICS);
-  statistics_.clear();
+  counters_.bind_storage(gpu::BINDING_COUNTERS);
+  counters_.clear();
   table_->learn();
   device().finish();
   std::uint64_t noticed = 0;
   for (const glm::uvec4& c : clamped) noticed += c.x;
-  gpu::Statistics block;
-  statistics_.read(0, &block, sizeof(block));
+  gpu::Counters block;
+  counters_.read(0, &block, sizeof(block));
   const double limit = 9223372036854775808.0 / 1048576.0;
   EXPECT_EQ(noticed, kTargets);
-  EXPECT_EQ(block.counters[2 * gpu::STATISTIC_SATURATED], 2 * kTargets);
+  EXPECT_EQ(block.words[2 * gpu::COUNTER_SATURATED], 2 * kTargets);
   EXPECT_NEAR(table_->values()[0] / (limit / kTargets), 1, 1e-5);
   EXPECT_NEAR(table_->values()[1] / (limit / kTargets), 1, 1e-6);
   record("131,072 targets of 1e30 in one frame", fmt::format("value {:.7g}, all counted", limit / kTargets),

@@ -22,10 +22,10 @@ struct Field {
   {                                                                   \
 #Struct "." #member, { offsetof(Struct, member), sizeof(Struct) } \
   }
-const std::map<std::string, Field> kFields{FIELD(Statistics, cut_pixel),
-                                           FIELD(Statistics, unused),
-                                           FIELD(Statistics, locations),
-                                           FIELD(Statistics, counters),
+const std::map<std::string, Field> kFields{FIELD(Counters, cut_pixel),
+                                           FIELD(Counters, unused),
+                                           FIELD(Counters, locations),
+                                           FIELD(Counters, words),
                                            FIELD(Node, lo),
                                            FIELD(Node, hi),
                                            FIELD(WideNode, a),
@@ -86,23 +86,45 @@ const std::map<std::string, Field> kFields{FIELD(Statistics, cut_pixel),
                                            FIELD(FilterGuide, normal),
                                            FIELD(FilterGuide, position),
                                            FIELD(FilterGuide, divided),
-                                           FIELD(FilterPass, image),
-                                           FIELD(FilterPass, falloff),
+                                           FIELD(FilterPass, image_size),
+                                           FIELD(FilterPass, spacing),
+                                           FIELD(FilterPass, radiance_falloff),
+                                           FIELD(FilterPass, normal_falloff),
+                                           FIELD(FilterPass, position_falloff),
+                                           FIELD(FilterPass, unused),
                                            FIELD(Incident, radiance),
-                                           FIELD(Incident, bins),
+                                           FIELD(Incident, bin_cosine),
+                                           FIELD(Incident, centre_bin),
+                                           FIELD(Incident, path_bin),
+                                           FIELD(Incident, unused),
                                            FIELD(Parameters, camera_origin),
                                            FIELD(Parameters, camera_right),
                                            FIELD(Parameters, camera_up),
                                            FIELD(Parameters, camera_forward),
                                            FIELD(Parameters, environment),
-                                           FIELD(Parameters, rl),
-                                           FIELD(Parameters, learning),
-                                           FIELD(Parameters, film),
-                                           FIELD(Parameters, shaping),
-                                           FIELD(Parameters, image),
-                                           FIELD(Parameters, path),
-                                           FIELD(Parameters, grid),
-                                           FIELD(Parameters, grid_boxes)};
+                                           FIELD(Parameters, inverse_brightest),
+                                           FIELD(Parameters, grid_origin),
+                                           FIELD(Parameters, grid_boxes_per_unit),
+                                           FIELD(Parameters, grid_boxes),
+                                           FIELD(Parameters, cells),
+                                           FIELD(Parameters, image_size),
+                                           FIELD(Parameters, seed),
+                                           FIELD(Parameters, lights),
+                                           FIELD(Parameters, light_prior),
+                                           FIELD(Parameters, max_bounces),
+                                           FIELD(Parameters, russian_roulette_start),
+                                           FIELD(Parameters, guided_bounces),
+                                           FIELD(Parameters, clamp_radiance),
+                                           FIELD(Parameters, bsdf_fraction),
+                                           FIELD(Parameters, bin_floor),
+                                           FIELD(Parameters, light_floor),
+                                           FIELD(Parameters, cell_normal_threshold),
+                                           FIELD(Parameters, rate_constant),
+                                           FIELD(Parameters, rate_exponent),
+                                           FIELD(Parameters, initial_value),
+                                           FIELD(Parameters, shrinkage),
+                                           FIELD(Parameters, roulette_scale),
+                                           FIELD(Parameters, unused)};
 #undef FIELD
 
 GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
@@ -113,7 +135,7 @@ GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
 
 // The member of a uniform block that a shader reads, so that the block is active; none for other structs.
 std::string block_member(const std::string& name) {
-  return name == "Parameters" ? ".path.x" : name == "NodeGrid" ? ".lo.x" : "";
+  return name == "Parameters" ? ".max_bounces" : name == "NodeGrid" ? ".lo.x" : "";
 }
 
 // A shader with an array of the struct in a storage buffer, or one of it in a uniform block.

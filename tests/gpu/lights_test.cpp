@@ -1,11 +1,13 @@
 // Lights: what belongs together, how each rule chooses, and what a choice teaches.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/alias_table.h"
 #include "engine/device_scene/light_table.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qtrace::test {
@@ -82,7 +84,7 @@ class LightChoices : public LearningStage {
   void expect_stated(const std::vector<double>& stated) {
     constexpr std::uint32_t kDraws = 1 << 18;
     const auto drawn = probe<glm::vec4>(
-        "vec4", {"shared/variants.glsl", "light/nee.glsl", "geometry/camera.glsl"}, "",
+        "vec4", {"shared/variants.glsl", "learning/cells.glsl", "light/nee.glsl", "geometry/camera.glsl"}, "",
         kViewedSurface +
             "int cell = find_cell(s).index;\n"
             "uvec4 bits = random_bits(RandomKey(index, 1u, 9u), 2u);\n"
@@ -122,13 +124,13 @@ TEST_F(LightChoices, Learned) {
     SCOPED_TRACE(enum_name(sampler));
     choose(LightChoice::learned, sampler);
     expect_stated({10 / 65.0, 40 / 65.0, 10 / 65.0, 5 / 65.0});  // nothing learned: by power
-    const std::size_t columns = table_->columns();
-    EXPECT_EQ(columns, sampler == Sampler::rl ? 8U : 4U);
+    const std::size_t actions = table_->actions();
+    EXPECT_EQ(actions, sampler == Sampler::rl ? 8U : 4U);
     std::vector<float> values(table_->values().size(), 1.0F);
     const std::vector<float> squares{4, 0, 0.25F, 1e-8F};
-    for (std::size_t i = 0; i < values.size(); i += columns) {
+    for (std::size_t i = 0; i < values.size(); i += actions) {
       std::copy(squares.begin(), squares.end(),
-                values.begin() + static_cast<std::ptrdiff_t>(i + columns - 4));
+                values.begin() + static_cast<std::ptrdiff_t>(i + actions - 4));
     }
     table_->set_values(values);
     const double floor = settings_.light_floor;
@@ -160,7 +162,7 @@ TEST_F(LightChoices, ThousandsOfLightsFillTheRangeOnce) {
   settings_.lights = LightChoice::learned;
   settings_.light_prior = 0;
   build();
-  ASSERT_EQ(table_->columns(), kMore + 1);
+  ASSERT_EQ(table_->actions(), kMore + 1);
   const gpu::LightTable lights = gpu::build_light_table(scene_, LightChoice::power);
   const auto found = probe<glm::vec4>("vec4", {"shared/variants.glsl", "light/nee.glsl"}, "",
                                       "result = vec4(light_probability(0, index));", kMore + 1, defines_);
@@ -178,7 +180,7 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(10))};
   add_quad(scene, {-10, 0, 0}, {0, 0, 20}, {20, 0, 0}, 0);  // its one site stands at (-10 + 20 v, 0, 20 u)
-  RlSettings one_site = report_table();
+  RlSettings one_site = goswami_table();
   one_site.sites_per_object = 1;
   const CellSites sites = place_sites(scene, one_site);
   const glm::vec3 corner = sites.sites[0].position - glm::vec3(0.05F, 0, 0.05F);
@@ -192,7 +194,7 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   add_light(2.001F, false);
   scene.camera = look_at({0, 1, 0}, {0, 0, 1}, 1);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.sampler = Sampler::bsdf;
   settings.nee = Nee::one_ray;
@@ -221,7 +223,7 @@ TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, static_cast<std::uint32_t>(scene.materials.size() - 1));
   scene.camera = look_at({1, 1, 1}, {0, 0, 0}, 0.05F);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 1;
   settings.sampler = Sampler::bsdf;
@@ -233,7 +235,7 @@ TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   render(tracer, 8);
   const std::vector<float> values = tracer.table()->values();
   const std::vector<std::uint32_t> visits = tracer.table()->visits();
-  ASSERT_EQ(tracer.table()->columns(), 2U);
+  ASSERT_EQ(tracer.table()->actions(), 2U);
   const double contribution = lit.radiance(0, 0) / 40;  // in units of the brightest light
   int taught = 0;
   for (std::size_t cell = 0; cell < values.size() / 2; ++cell) {

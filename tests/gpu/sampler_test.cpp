@@ -1,16 +1,18 @@
 // Chi-squared: every direction sampler draws in proportion to the density that it states, on the device.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -25,7 +27,7 @@ constexpr std::uint32_t kSamples = 1 << 18;
 // One hit for all invocations: the floor in the middle of the image. `c` = direction in the frame of z up.
 const char* const kEvent = R"(
 Event the_event() {
-  vec3 direction = camera_direction(vec2(parameters.image.xy) * 0.5);
+  vec3 direction = camera_direction(vec2(parameters.image_size) * 0.5);
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
   Event e;
   e.surface = surface_at(hit, direction);
@@ -39,7 +41,7 @@ Event the_event() {
   return e;
 }
 )";
-const std::vector<std::string> kIncludes{"shared/variants.glsl", "sampling/random.glsl", "sampling/direction.glsl", "geometry/camera.glsl"};
+const std::vector<std::string> kIncludes{"shared/variants.glsl", "sampling/random.glsl", "sampling/direction.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"};
 
 struct Case {
   std::string name;
@@ -92,7 +94,7 @@ class Stage {
         buffers_(scene_, build_bvh(scene_, BvhKind::sah)) {
     defines_ = shader_defines(settings_, buffers_.features());
     if (c.sampler == Sampler::rl) {
-      table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_.features()), defines_,
+      table_.emplace(scene_, settings_.rl, table_actions(settings_, buffers_.features()), defines_,
                      device().programs());
     }
     const gpu::Parameters parameters =
@@ -100,7 +102,7 @@ class Stage {
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
     buffers_.bind();
-    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    counters_.bind_storage(gpu::BINDING_COUNTERS);
     if (table_) table_->set_values(make_table(c.table, table_->values().size()));
   }
 
@@ -168,7 +170,7 @@ class Stage {
 
   static RenderSettings make_settings(const Case& c) {
     RenderSettings settings;
-    settings.rl = report_table();
+    settings.rl = goswami_table();
     settings.width = settings.height = 16;
     settings.sampler = c.sampler;
     settings.rl.bsdf_fraction = c.bsdf_fraction;
@@ -198,7 +200,7 @@ class Stage {
   gpu::Defines defines_;
   std::optional<QTable> table_;
   gpu::Buffer block_{"parameters", sizeof(gpu::Parameters)};
-  gpu::Buffer statistics_{"statistics", 4096};
+  gpu::Buffer counters_{"counters", 4096};
 };
 
 TEST(Samplers, DrawWhatTheyState) {

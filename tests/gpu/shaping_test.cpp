@@ -23,7 +23,7 @@ class Shaping : public LearningStage {
     std::vector<double> result;
     for (const glm::vec4& v :
          probe<glm::vec4>("vec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
-                          "result = vec4(column_probability(first_bin(0u), uint(BINS), index));",
+                          "result = vec4(action_probability(first_bin(0u), uint(BINS), index));",
                           static_cast<std::uint32_t>(bins_), defines_)) {
       result.push_back(v.x);
     }
@@ -36,14 +36,14 @@ class Shaping : public LearningStage {
         .x;
   }
 
-  // So many targets of one size for a column of the first cell, in units of the brightest light squared.
+  // So many targets of one size for an action of the first cell, in units of the brightest light squared.
   void teach_share(const std::string& side, float square, std::uint32_t count) {
     table_->bind();
     probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                       "result = uvec4(gather_light_target(first_share(0u) + " + side + ", " +
                           std::to_string(square) + ") ? 1u : 0u);",
                       count, defines_);
-    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    counters_.bind_storage(gpu::BINDING_COUNTERS);
   }
 
   std::size_t bins_ = 4;

@@ -1,4 +1,5 @@
 // The GPU's traversal against the CPU's in double precision, and against the driver's loop budget.
+#include "engine/accel/build_bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/core/check.h"
 #include "engine/device_scene/scene_buffers.h"

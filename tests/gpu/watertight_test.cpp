@@ -1,5 +1,6 @@
 // No ray leaves a closed surface: neither between neighbouring triangles, nor from a point whose rounding put
 // it behind the wall next to it.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
@@ -49,7 +50,7 @@ std::size_t count_leaks(const Scene& scene, const Walk& walk, glm::vec3 middle, 
   input.bind_storage(gpu::BINDING_SAMPLES);
   std::size_t leaks = 0;
   for (const glm::uvec4& r : probe<glm::uvec4>(
-           "uvec4", {"geometry/surface.glsl", "sampling/random.glsl"},
+           "uvec4", {"geometry/surface.glsl", "geometry/traverse.glsl", "sampling/random.glsl", "shared/loops.glsl"},
            "struct Aim { vec4 from; vec4 to; };\n"
            "layout(std430, binding = BINDING_SAMPLES) readonly buffer AimBuffer { Aim aims[]; };",
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"

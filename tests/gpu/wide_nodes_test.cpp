@@ -1,4 +1,5 @@
 // The grid of 16-bit boxes: every box encloses its node's, in the arithmetic that the shader uses.
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/wide_nodes.h"
 #include "engine/gltf/load_gltf.h"
 

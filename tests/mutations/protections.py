@@ -53,18 +53,18 @@ PROTECTIONS = [
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
                (Edit("shaders/passes/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
     Protection("visit counters stop at their limit", ("VisitCountersAtTheirLimitDoNotWrap",), (Edit(
-        "shaders/passes/learn.comp",
+        "shaders/learning/storage.glsl",
         "q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);",
         "q_visits[entry] = q_visits[entry] + targets;"),), True),
     Protection("targets are clamped", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
-        "shaders/learning/columns.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
+        "shaders/learning/actions.glsl", "float units = round(min(target, TARGET_LIMIT));", "float units = round(target);"),), True),
     Protection("full sums stay full", ("TargetsBeyondTheFixedPointAreCounted",), (Edit(
-        "shaders/learning/gathered.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
+        "shaders/learning/target_sums.glsl", "  if (is_full(sum)) return float(SUM_HIGH_FULL) * SUM_HIGH_UNIT;\n", ""),), True),
     Protection("bins have a floor, and none vanishes", ("TableEntriesAtBothEndsOfTheirRangeKeepTheImage",), (Edit(
         "shaders/passes/learn.comp", "uint floor_width = uint(floor_share * (FLOOR_RANGE / float(BINS)));",
         "uint floor_width = 0u;"),), True),
     Protection("counts run over into the next word", ("AMillionUpdatesOfOneEntryAreTheirMean",), (Edit(
-        "shaders/learning/columns.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
+        "shaders/learning/actions.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
     Protection("emission met after a light sample is weighted", ("room",), (Edit(
         NEE, "return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));",
         "return 1.0;"),)),
@@ -74,7 +74,7 @@ PROTECTIONS = [
     Protection("what does not emit is black", ("no light",), (Edit(
         SURFACE, "return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
     Protection("the environment is met after every event", ("environment alone",), (Edit(
-        "shaders/passes/path.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
+        "shaders/path/trace.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
     Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
         "engine/device_scene/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",
         "uvec4(0), uvec4(0, 0, link(0), link(0))"),)),

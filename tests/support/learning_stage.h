@@ -1,13 +1,14 @@
 // A small table over a lit floor, taught by hand.
 #pragma once
 
+#include "engine/accel/build_bvh.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/scene/analytic.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +19,14 @@ namespace qtrace::test {
 
 // Sets `s` to what the middle of the image shows, seen along `d`.
 inline const std::string kViewedSurface =
-    "vec3 d = camera_direction(vec2(parameters.image.xy) * 0.5);\n"
+    "vec3 d = camera_direction(vec2(parameters.image_size) * 0.5);\n"
     "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n";
 
 class LearningStage : public testing::Test {
  protected:
   LearningStage() {
     scene_ = lit_floor(0.8F, 10, 1, 1).scene;
-    settings_.rl = report_table();
+    settings_.rl = goswami_table();
     settings_.rl.sites_per_object = 4;
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     build();
@@ -35,13 +36,13 @@ class LearningStage : public testing::Test {
   void build() {
     buffers_.emplace(scene_, build_bvh(scene_, BvhKind::sah));
     defines_ = shader_defines(settings_, buffers_->features());
-    table_.emplace(scene_, settings_.rl, table_columns(settings_, buffers_->features()), defines_,
+    table_.emplace(scene_, settings_.rl, table_actions(settings_, buffers_->features()), defines_,
                    device().programs());
     const gpu::Parameters parameters =
         make_parameters(scene_.camera, settings_, buffers_->features(), &table_->cells());
     block_.write(0, &parameters, sizeof(parameters));
     block_.bind_uniform(gpu::BINDING_PARAMETERS);
-    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    counters_.bind_storage(gpu::BINDING_COUNTERS);
     buffers_->bind();
     table_->reset();
   }
@@ -52,7 +53,7 @@ class LearningStage : public testing::Test {
     probe<glm::uvec4>("uvec4", {"shared/variants.glsl", "learning/qtable.glsl"}, "",
                       "result = uvec4(gather_target(" + entry + ", " + expression + ") ? 1u : 0u);", count,
                       defines_);
-    statistics_.bind_storage(gpu::BINDING_STATISTICS);
+    counters_.bind_storage(gpu::BINDING_COUNTERS);
     table_->learn();
     device().finish();
   }
@@ -61,7 +62,7 @@ class LearningStage : public testing::Test {
   std::vector<float> next_values_in_view(std::uint32_t count = 1) const {
     std::vector<float> values;
     for (const glm::vec4& v : probe<glm::vec4>(
-             "vec4", {"shared/variants.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "sampling/random.glsl"}, "",
+             "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
              kViewedSurface +
                  "vec3 rotation = random_units(RandomKey(index, 1u, 5u), 1u).xyz;\n"
                  "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s), vec3(0.5), rotation));",
@@ -78,7 +79,7 @@ class LearningStage : public testing::Test {
   gpu::Defines defines_;
   std::optional<QTable> table_;
   gpu::Buffer block_{"parameters", sizeof(gpu::Parameters)};
-  gpu::Buffer statistics_{"statistics", 4096};
+  gpu::Buffer counters_{"counters", 4096};
 };
 
 }  // namespace qtrace::test

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/accel/bvh.h"
-#include "engine/gpu/fetch.h"
+#include "engine/gpu/driver.h"
 #include "engine/gpu/shader_source.h"
 
 #include <gtest/gtest.h>
@@ -62,6 +62,7 @@ inline std::vector<Walk> walks() {
   std::vector<Walk> all = own_walks();
   all.push_back(all.front());
   all.back().name = "sah_as_on_gpus";
+  all.back().defines["STACK"] = std::to_string(static_cast<int>(gpu::StackPlace::memory));
   all.back().defines["FETCH"] = std::to_string(static_cast<int>(gpu::Fetch::texture));
   return all;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace qtrace::test {
@@ -22,28 +23,36 @@ inline double z_threshold(std::size_t comparisons) {
       boost::math::complement(boost::math::normal(), kFalseAlarm / (2.0 * static_cast<double>(comparisons))));
 }
 
-// Pearson's chi-squared test. Neighbouring cells are pooled until each expects at least ten. Returns the
-// probability of a worse fit.
+// Pearson's chi-squared test. Neighbouring counts are pooled until each pool expects at least ten; what is
+// left at the end joins the last pool, but nothing may lie where nothing is expected. Returns the probability of
+// a worse fit. Throws where there is nothing to compare: one pool fits any counts.
 inline double chi_squared_p(const std::vector<double>& observed, const std::vector<double>& expected) {
-  double statistic = 0;
-  double o = 0;
-  double e = 0;
-  int pools = 0;
+  if (observed.size() != expected.size()) throw std::invalid_argument("chi_squared_p: sizes differ");
+  struct Pool {
+    double observed = 0;
+    double expected = 0;
+  };
   constexpr double kLeastExpected = 10;
+  std::vector<Pool> pools;
+  Pool open;
   for (std::size_t i = 0; i < observed.size(); ++i) {
-    o += observed[i];
-    e += expected[i];
-    if (e < kLeastExpected && i + 1 < observed.size()) continue;
-    if (e > 0) {
-      statistic += (o - e) * (o - e) / e;
-      ++pools;
-    } else if (o > 0) {
-      return 0;
-    }
-    o = e = 0;
+    open.observed += observed[i];
+    open.expected += expected[i];
+    if (open.expected < kLeastExpected) continue;
+    pools.push_back(open);
+    open = {};
   }
-  if (pools < 2) return 1;
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(pools - 1), statistic));
+  if (open.expected == 0 && open.observed > 0) return 0;
+  if (pools.size() < 2) throw std::invalid_argument("chi_squared_p: the samples fill fewer than two pools");
+  pools.back().observed += open.observed;
+  pools.back().expected += open.expected;
+  double statistic = 0;
+  for (const Pool& pool : pools) {
+    const double difference = pool.observed - pool.expected;
+    statistic += difference * difference / pool.expected;
+  }
+  const boost::math::chi_squared law(static_cast<double>(pools.size() - 1));
+  return boost::math::cdf(boost::math::complement(law, statistic));
 }
 
 struct Estimate {

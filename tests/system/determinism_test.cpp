@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <optional>
 
 namespace qtrace::tests {
 namespace {
@@ -19,20 +20,30 @@ constexpr const char* kConfig = R"({
              { "rl.update": ["expected_sarsa", "monte_carlo"] }, { "lights": ["power", "learned"] } ]
 })";
 
-// Variables of the environment for as long as it lives; programs that are started inherit them.
+// A variable of the environment for as long as it lives, and then as it was; programs that are started inherit
+// it.
 class Environment {
  public:
-  Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
-  ~Environment() { ::unsetenv(name_); }
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() {
+    if (before_) {
+      ::setenv(name_, before_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
 
  private:
   const char* name_;
+  std::optional<std::string> before_;
 };
 
 TEST(Determinism, ThreadsDoNotChangeABit) {
-  if (std::getenv("LP_NUM_THREADS") != nullptr) GTEST_SKIP() << "LP_NUM_THREADS is set already";
   const TempFolder folder;
   folder.write("bits.json", kConfig);
   const char* const threads[] = {"2", "1", "4", "0"};  // 0: none besides the program's own

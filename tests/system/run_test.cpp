@@ -190,7 +190,9 @@ TEST_F(RunProgram, ReferencesAreFoundAgainAndBrokenOnesRenderedAnew) {
   }
   const std::string file = "results/references/" + name;
   const std::string whole = folder_.read(file);
-  EXPECT_FALSE(contains(run("ref", "", {"--fresh"}).err, "rendered"));
+  const Outcome found = run("ref", "", {"--fresh"});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_FALSE(contains(found.err, "rendered")) << found.err;
   folder_.write(file, whole.substr(0, whole.size() / 2));
   const Outcome outcome = run("ref", "", {"--fresh"});
   EXPECT_EQ(outcome.exit_code, 0);
@@ -212,6 +214,8 @@ TEST_F(RunProgram, CompareFindsAnImageEqualToItself) {
   EXPECT_TRUE(contains(same.out, "relmse              0 ")) << same.out;
   EXPECT_TRUE(contains(same.out, "0 of 64 pixels"));
   const Outcome other = run_qtrace({"compare", "results/cmp/run/frame_000001.exr", image}, folder_.path());
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_TRUE(contains(other.out, "\nrelmse              ")) << other.out;
   EXPECT_FALSE(contains(other.out, "relmse              0 "));
 }
 
@@ -223,7 +227,10 @@ TEST_F(RunProgram, ASceneWithoutLightIsBlackAndNoError) {
   EXPECT_TRUE(contains(outcome.err, "warning: dark.gltf: the scene has no light: the image will be black"));
   for (const char* sampler : {"bsdf", "rl"}) {
     const std::string base = std::string("results/dark/scene=dark,sampler=") + sampler;
-    for (const auto& [name, plane] : read_exr(folder_ / (base + "/frame_000004.exr")).channels) {
+    const auto channels = read_exr(folder_ / (base + "/frame_000004.exr")).channels;
+    ASSERT_TRUE(channels.contains("R") && channels.contains("variance.R"));
+    for (const auto& [name, plane] : channels) {
+      ASSERT_EQ(plane.size(), 64U) << name;
       for (const float value : plane) EXPECT_EQ(value, 0) << name;
     }
     EXPECT_EQ(parse_csv(folder_.read(base + "/convergence.csv")).back().at("relmse"), "0");

@@ -60,6 +60,7 @@ TEST_F(Verdicts, MetExpectationsEndWell) {
           .exit_code,
       0);
   const Outcome plain = run("plain", "");
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_FALSE(contains(plain.out, "verdict")) << plain.out;
 }
 
@@ -103,6 +104,8 @@ TEST_F(Verdicts, PositionsAreThoseOfTheFile) {
     EXPECT_NEAR(far.at("position.X")[i], near.at("position.X")[i] + 10000, 2e-3);
     EXPECT_NEAR(far.at("position.Y")[i], near.at("position.Y")[i], 1e-5);
   }
+  ASSERT_EQ(near_cells.size() % 7, 0U);
+  ASSERT_GT(near_cells.size(), 0U);
   ASSERT_EQ(near_cells.size(), far_cells.size());
   for (std::size_t i = 0; i < near_cells.size(); i += 7)
     EXPECT_NEAR(far_cells[i], near_cells[i] + 10000, 2e-3);

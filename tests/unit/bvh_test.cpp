@@ -1,3 +1,5 @@
+#include "engine/accel/median_bvh.h"
+#include "engine/accel/sah_bvh.h"
 #include "engine/accel/bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/core/check.h"

@@ -106,7 +106,9 @@ TEST(FlipHdr, BlackAgainstGreyIsTheSameAtAnyRadiance) {
 TEST(FlipHdr, ZeroForEqualImagesAndAtMostOne) {
   const RadianceImage a = grey({1e-3, 5, 1e5, 0.2}), b = grey({1e5, 0, 1e-3, 7});
   EXPECT_EQ(flip_error(a, a), 0);
-  for (const double error : flip_map(b, a)) {
+  const std::vector<double> map = flip_map(b, a);
+  ASSERT_EQ(map.size(), 4U);
+  for (const double error : map) {
     EXPECT_GT(error, 0.5);
     EXPECT_LE(error, 1);
   }

@@ -244,6 +244,7 @@ TEST(GltfScenesTest, GlossyRoomHasNoMattSurface) {
 
 TEST(GltfScenesTest, OpenSkyIsMattAndHasNoLightOfItsOwn) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/open_sky.glb");
+  ASSERT_FALSE(scene.materials.empty());
   for (const Material& material : scene.materials) {
     EXPECT_EQ(material.emission, glm::vec3(0)) << material.name;
     EXPECT_EQ(material.specular, 0) << material.name;

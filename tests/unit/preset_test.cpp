@@ -55,7 +55,7 @@ TEST_F(Presets, ErrorsNameTheFileAndWhatIsWrong) {
   EXPECT_NE(error(R"("preset": "p.json")").find("must hold one JSON object"), std::string::npos);
 }
 
-// The report's settings, spelled out once for configs and once for tests.
+// Goswami's settings, spelled out once for configs and once for tests.
 TEST(Preset, OfTheReportIsWhatTheReportStates) {
   const Experiment experiment = load_experiment(QTRACE_SOURCE_DIR "/configs/paper_table.json");
   const RlSettings& rl = experiment.runs.back().config.render.rl;

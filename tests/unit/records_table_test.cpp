@@ -30,7 +30,7 @@ Experiment experiment() {
   result.axes = {Axis{"scene", false, {}}, Axis{"method", false, {}}};
   result.published.source = "A report";
   result.published.note = "Ratios alone are comparable.";
-  result.published.ms_per_frame.by_cell = {{"simple / NEE", 76}, {"simple / RL", 33}};
+  result.published.ms_per_frame.by_configuration = {{"simple / NEE", 76}, {"simple / RL", 33}};
   result.published.ratio = {"NEE", "RL"};
   return result;
 }

@@ -77,6 +77,7 @@ TEST(TableTrial, LeavesTheTableOutOfEveryOtherFrameAfterTheFirst16) {
 }
 
 TEST(TableTrial, IsNotWantedWithoutLearnedDirectionsOrWithLearnedLights) {
+  EXPECT_TRUE(TableTrial(learned(4)).is_wanted());
   EXPECT_FALSE(TableTrial(learned(0)).is_wanted());
   RenderSettings settings = learned(4);
   settings.sampler = Sampler::bsdf;
@@ -119,6 +120,7 @@ TEST(TableTrial, GoesOnFromWhatWasSaved) {
   half.add(1, 0.2);
   within.look({half.image(), half.image()});
   after.look({half.image(), half.image()});
+  ASSERT_TRUE(after.gain() && within.gain());
   EXPECT_EQ(*after.gain(), *within.gain());
   TableTrial later(learned(2));
   later.restore(after.saved());

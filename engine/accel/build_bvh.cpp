@@ -1,4 +1,7 @@
-#include "engine/accel/bvh.h"
+#include "engine/accel/build_bvh.h"
+
+#include "engine/accel/median_bvh.h"
+#include "engine/accel/sah_bvh.h"
 
 namespace qtrace {
 namespace {

@@ -1,58 +1,51 @@
 // A path from its first ray on: at most max_bounces scattering events. Its radiance is what arrives at the ray's
 // origin, the emission that the first ray meets included.
+#include "geometry/intersect.glsl"
+#include "geometry/surface.glsl"
+#include "geometry/traverse.glsl"
 #include "light/nee.glsl"
-
-struct Path {
-  vec3 origin;
-  vec3 direction;
-  vec3 throughput;
-  vec3 roulette;  // what Russian roulette goes by
-  float expected;  // of the path beyond its first event, by the table
-  vec3 radiance;
-  float pdf;   // of `direction`, per solid angle
-  int cell;    // of the surface that it left, NO_CELL where it has none
-  uint entry;  // of the Q-table that chose `direction`
-  float lesson;  // for that entry, what its ray has found so far; negative: nothing to learn
-  uint share;    // of the Q-table, for the side of the mixture that drew `direction`
-  float weight;  // that the ray's finds have for what it left, averaged over the channels
-  Tally tally;
-};
-
-// Of the table, what a ray teaches.
-struct Taught {
-  uint entry;
-  uint share;
-  float weight;
-};
-
-#include "learning/learning.glsl"
-#include "sampling/roulette.glsl"
+#include "material/bsdf.glsl"
+#include "path/bsdf_sample.glsl"
+#include "path/path.glsl"
+#include "path/roulette.glsl"
+#include "path/rules.glsl"
+#include "sampling/direction.glsl"
+#include "sampling/random.glsl"
+#include "shared/counters.glsl"
+#include "shared/loops.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#ifdef HAS_TABLE
+#include "learning/cells.glsl"
+#endif
 
 void leave_scene(inout Path path, uint bounce) {
-  vec3 radiance = parameters.environment.rgb;
+  vec3 radiance = parameters.environment;
   float weight = 0.0;
 #ifdef HAS_ENVIRONMENT
   weight = NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;
   path.radiance += path.throughput * radiance * weight;
 #endif
-  learn_leaving(path, bounce, radiance, weight);
+  record_miss(path, bounce, radiance, weight);
 }
 
-// Emission at the hit, and the lesson of the ray that led here.
-void arrive(inout Path path, Event e, Departure next, float t, uint bounce, bool scatters, RandomKey key) {
+// Emission at the hit, and what the ray that led here is worth.
+void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, RandomKey key) {
   vec3 emitted = emitted_radiance(e.surface);
   float weight =
       bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * emitted * weight;
-  learn_arriving(path, e, next, bounce, emitted, weight, scatters, key);
+  record_hit(path, e, next, bounce, emitted, weight, scatters, key);
 }
 
 // One scattering event. Returns whether the path goes on.
-bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey key) {
+bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, RandomKey key) {
   uint block = bounce * BLOCKS_PER_EVENT;
   vec3 direct = direct_light(e, key, block, path.tally);
   path.radiance += path.throughput * direct;
-  learn_scattering(path, bounce, direct, next);
+  record_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
   float by_value = survival_by_value(path, e, bounce);
   path.throughput *= next.weight;
@@ -64,12 +57,12 @@ bool scatter(inout Path path, Event e, Departure next, uint bounce, RandomKey ke
   path.share = next.direction.share;
   path.weight = average(next.weight);
   path.cell = cell_of(e);
-  if (bounce + 1u > parameters.path.y) {
+  if (bounce + 1u > parameters.russian_roulette_start) {
     float survival = by_value > 0.0 ? by_value : survival_by_reflectance(path);
     if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
     path.throughput /= survival;
     path.roulette /= survival;
-    learn_survival(bounce, survival);
+    record_survival(bounce, survival);
   }
   return true;
 }
@@ -82,14 +75,14 @@ Event event_at(inout Path path, Hit hit) {
   return e;
 }
 
-// For directions, for what the last of these teaches, or for lights.
+// For directions, for the target of the last of these, or for lights.
 bool needs_cell(uint bounce) {
-  return LIGHT_COLUMNS > 0 || float(bounce) < parameters.shaping.z ||
-         (frame_teaches != 0u && float(bounce) == parameters.shaping.z);
+  return LIGHT_ACTIONS > 0 || bounce < parameters.guided_bounces ||
+         (frame_teaches != 0u && bounce == parameters.guided_bounces);
 }
 
-// The event's cell, and where the path goes from there.
-Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key) {
+// The event's cell, and whether the table guides from there.
+void find_state(inout Path path, inout Event e, uint bounce) {
 #ifdef HAS_TABLE
   e.cell = no_cell(e.surface);
   if (needs_cell(bounce)) {
@@ -99,10 +92,9 @@ Departure depart_from(inout Path path, inout Event e, uint bounce, RandomKey key
   }
 #endif
 #if SAMPLER == SAMPLER_RL
-  e.is_guided = e.cell.index != NO_CELL && float(bounce) < parameters.shaping.z;
+  e.is_guided = e.cell.index != NO_CELL && bounce < parameters.guided_bounces;
   e.bsdf_share = bsdf_share_of(e);
 #endif
-  return depart(e, key, bounce);
 }
 
 Path trace(RandomKey key, vec3 origin, vec3 direction) {
@@ -118,36 +110,39 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
   path.entry = NO_ENTRY;
   path.share = NO_ENTRY;
   path.weight = 0.0;
-  path.lesson = -1.0;
+  path.td_target = -1.0;
   path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
 
   // With two_ray, the last event's light needs no further ray of the path.
-  uint last_ray = parameters.path.x - (NEE == NEE_TWO_RAY && parameters.path.x > 0u ? 1u : 0u);
+  uint last_ray = parameters.max_bounces - (NEE == NEE_TWO_RAY && parameters.max_bounces > 0u ? 1u : 0u);
   uint bounce = 0u;
   bool going_on = true;
   do {
     if (going_on) {
       ++path.tally.rays;
       ++path.tally.segments;
-      Taught taught = Taught(path.entry, path.share, path.weight);
+      PreviousAction previous = PreviousAction(path.entry, path.share, path.weight);
       Hit hit = closest_hit(path.origin, path.direction);
       if (hit.triangle == NO_TRIANGLE) {
         leave_scene(path, bounce);
         going_on = false;
       } else {
         Event e = event_at(path, hit);
-        bool scatters = bounce < parameters.path.x;
-        Departure next;
-        if (scatters || ENDS_TEACH) next = depart_from(path, e, bounce, key);
+        bool scatters = bounce < parameters.max_bounces;
+        BsdfSample next;
+        if (scatters || BOOTSTRAPS_AT_LAST_HIT) {
+          find_state(path, e, bounce);
+          next = bsdf_sample_at(e, key, bounce);
+        }
         arrive(path, e, next, hit.t, bounce, scatters, key);
         going_on = scatters && scatter(path, e, next, bounce, key) && bounce < last_ray;
       }
-      learn_lesson(path, taught);
+      update_after_ray(path, previous);
       ++bounce;
     }
   } while (going_on);
   loop_was_cut = loop_was_cut || going_on;
-  learn_path(path);
+  update_after_path(path);
   // A throughput that broke without meeting light would pass unnoticed.
   if (!is_finite(average(path.throughput))) path.radiance = path.throughput;
   return path;

@@ -1,37 +1,40 @@
-// Drawing a column of a row in proportion to what was learned, and gathering targets for it. The distributions
+// Drawing an action of a state in proportion to what was learned, and gathering targets for it. The distributions
 // are written by learn.comp alone, between frames.
 #include "learning/table.glsl"
+#include "shared/fetch.glsl"
+#include "shared/loops.glsl"
+#include "shared/structs.glsl"
 
-FETCHED_UINT(column_starts, UNIT_COLUMN_STARTS);
+FETCHED_UINT(action_starts, UNIT_ACTION_STARTS);
 // The sums of all entries, word by word, then the marks of the cells.
 layout(std430, binding = BINDING_TARGET_SUMS) restrict buffer SumWordBuffer { uint sum_words[]; };
 
-// Of the columns [first, first + count) of one row, column c holds the random words from column_starts[first + c]
-// up to the next column's start; the last one ends at 2^32. Its probability is therefore exact, also after
+// Of the actions [first, first + count) of one state, action a holds the random words from action_starts[first + a]
+// up to the next action's start; the last one ends at 2^32. Its probability is therefore exact, also after
 // rounding.
 float width_probability(uint width) {
   return width == 0u ? 1.0 : float(width) * (1.0 / 4294967296.0);
 }
 
-float column_probability(uint first, uint count, uint column) {
-  uint end = column + 1u < count ? fetch_one(column_starts, first + column + 1u) : 0u;
-  return width_probability(end - fetch_one(column_starts, first + column));
+float action_probability(uint first, uint count, uint action) {
+  uint end = action + 1u < count ? fetch_one(action_starts, first + action + 1u) : 0u;
+  return width_probability(end - fetch_one(action_starts, first + action));
 }
 
 struct Choice {
-  uint column;
-  float probability;  // to the bit that of column_probability
+  uint action;
+  float probability;  // to the bit that of action_probability
 };
 
 // As many turns whatever the word: without conditions, and unrolled where the count is a constant.
-Choice choose_column(uint first, uint count, uint word) {
+Choice choose_action(uint first, uint count, uint word) {
   uint low = 0u;
   uint high = count;  // the answer lies in [low, high)
-  uint start = 0u;    // of column low, and of column high
+  uint start = 0u;    // of action low, and of action high
   uint end = 0u;
   for (int turns = findMSB(count - 1u); turns >= 0; --turns) {
     uint middle = (low + high) >> 1u;
-    uint value = fetch_one(column_starts, first + middle);
+    uint value = fetch_one(action_starts, first + middle);
     bool right = value <= word;
     low = right ? middle : low;
     start = right ? value : start;
@@ -42,9 +45,9 @@ Choice choose_column(uint first, uint count, uint word) {
   return Choice(low, width_probability(end - start));
 }
 
-// Adds a target, in its column's units, to this frame's sum (TargetSum in structs.glsl). Integer sums do not depend on
+// Adds a target, in its action's units, to this frame's sum (TargetSum in structs.glsl). Integer sums do not depend on
 // the order of threads. Returns whether the target was clamped.
-// One addition a turn, and seldom more than two turns: llvmpipe adds lane by lane.
+// One addition a turn, and seldom more than two turns (shaders/README.md).
 bool gather_units(uint entry, float target) {
   float units = round(min(target, TARGET_LIMIT));
   uint high = uint(units * (1.0 / SUM_HIGH_UNIT));
@@ -84,7 +87,7 @@ bool gather_units(uint entry, float target) {
       if (step == SUM_MARK && !is_first) ++step;
       amount = step == SUM_MIDDLE ? more : step == SUM_HIGH ? most : 1u;
       if (step == SUM_RETURN) amount = 0u - (high << SUM_HIGH_COUNT_BITS);
-      place = step == SUM_MARK ? mark_of(entry / TABLE_COLUMNS) : first_word + min(step, SUM_HIGH);
+      place = step == SUM_MARK ? mark_of(entry / TABLE_ACTIONS) : first_word + min(step, SUM_HIGH);
       adding = step <= SUM_MARK;
     }
   } while (adding);
@@ -92,12 +95,12 @@ bool gather_units(uint entry, float target) {
   return target > TARGET_LIMIT;
 }
 
-// A radiance, for a direction's column.
+// A radiance, for a direction.
 bool gather_target(uint entry, float target) {
   return gather_units(entry, target / TARGET_UNIT);
 }
 
-// A squared contribution, for a light's column.
+// A squared contribution, for a light or a side of the mixture.
 bool gather_light_target(uint entry, float target) {
   return gather_units(entry, target / LIGHT_TARGET_UNIT);
 }

@@ -1,4 +1,5 @@
-// What a frame's targets of a table entry sum to, and how many they were, out of the words of a TargetSum (structs.glsl).
+// What a frame's targets of a table entry sum to, and how many they were, out of the words of a TargetSum.
+#include "shared/structs.glsl"
 
 // Targets that ran over in the counts of the low word, and of the middle one.
 uint beyond_low(TargetSum sum) {

@@ -1,7 +1,18 @@
 // Russian roulette. By the path's throughput it undoes what a table is for: a direction that is drawn often because much
 // comes from there makes each path count for less, and such paths are then ended.
+#include "material/bsdf.glsl"
+#include "path/path.glsl"
+#include "sampling/direction.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+#if SAMPLER == SAMPLER_RL && ROULETTE == ROULETTE_VALUE
+#include "learning/qtable.glsl"
+#include "shared/fetch.glsl"
+#endif
 
-// At most, where reflectance is what it goes by: as in the report, so that paths end also where nothing is absorbed.
+// At most, where reflectance is what it goes by: as in Goswami 2020, so that paths end also where nothing is absorbed.
 const float MAX_SURVIVAL = 0.95;
 // At least, where the table's values are: it bounds how far a survivor is scaled up. While the table is young it is nearly 1,
 // since what a path was expected to bring means little then.
@@ -17,7 +28,7 @@ float survival_by_value(inout Path path, Event e, uint bounce) {
   float value = average(path.throughput) * reflected;
   float least = max(LEAST_SURVIVAL, 1.0 - float(frame_number) / YOUNG_FRAMES);
   if (bounce == 0u) path.expected = value;
-  return path.expected > 0.0 ? clamp(parameters.shaping.y * value / path.expected, least, 1.0) : -1.0;
+  return path.expected > 0.0 ? clamp(parameters.roulette_scale * value / path.expected, least, 1.0) : -1.0;
 #else
   return -1.0;
 #endif

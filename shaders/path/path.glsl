@@ -1,0 +1,25 @@
+// A path on its way, and what of the table its last ray belongs to.
+#include "shared/counters.glsl"
+
+struct Path {
+  vec3 origin;
+  vec3 direction;
+  vec3 throughput;
+  vec3 roulette;  // what Russian roulette goes by
+  float expected;  // of the path beyond its first event, by the table
+  vec3 radiance;
+  float pdf;   // of `direction`, per solid angle
+  int cell;    // of the surface that it left, NO_CELL where it has none
+  uint entry;  // of the Q-table that chose `direction`
+  float td_target;  // for that entry, as far as it is known
+  uint share;    // of the Q-table, for the side of the mixture that drew `direction`
+  float weight;  // throughput of the event that it left, averaged over the channels
+  Tally tally;
+};
+
+// The action that drew a ray's direction: what the ray's target is for.
+struct PreviousAction {
+  uint entry;
+  uint share;
+  float weight;
+};

@@ -1,0 +1,60 @@
+// Rules of temporal differences: a ray's target is what it found and, for what lies beyond, what the table holds there.
+#include "learning/gather.glsl"
+#include "learning/qtable.glsl"
+#include "path/bsdf_sample.glsl"
+#include "path/path.glsl"
+#include "sampling/direction.glsl"
+#include "sampling/random.glsl"
+#include "shared/fetch.glsl"
+#include "shared/math.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+
+// Whether the last hit, where the path ends, is looked up in the table, too.
+const bool BOOTSTRAPS_AT_LAST_HIT = LEARNS == LEARNS_ALL;
+
+// `weight`: share of met emission that next event estimation leaves to the path.
+void record_miss(inout Path path, uint bounce, vec3 radiance, float weight) {
+  path.td_target = average(radiance) * (LEARNS == LEARNS_BEYOND_NEE ? weight : 1.0);
+}
+
+// What the table holds of the radiance that leaves y.
+float bootstrap(Path path, Event e, BsdfSample next, uint bounce, RandomKey key) {
+  if (e.cell.index == NO_CELL) return 0.0;
+#if UPDATE_RULE == UPDATE_SARSA
+  return average(next.weight) * fetch_one(q_values, next.direction.entry);
+#else
+  vec3 rotation = random_units(key, bounce * BLOCKS_PER_EVENT + BLOCK_MORE).yzw;
+  return next_value(e.surface, e.bsdf, e.wo, e.cell, path.throughput, rotation);
+#endif
+}
+
+void record_hit(inout Path path, Event e, BsdfSample next, uint bounce, vec3 emitted, float weight, bool scatters,
+                RandomKey key) {
+  vec3 met = emitted * (LEARNS == LEARNS_BEYOND_NEE ? weight : 1.0);
+  bool bootstraps = frame_teaches != 0u && (scatters || BOOTSTRAPS_AT_LAST_HIT);
+  float next_state = bootstraps ? bootstrap(path, e, next, bounce, key) : 0.0;
+#if UPDATE_RULE == UPDATE_PAPER_LISTING
+  path.td_target = met != vec3(0.0) ? min(length(met), 1.0) : next_state;
+#else
+  path.td_target = average(met) + next_state;
+#endif
+}
+
+void record_scattering(inout Path path, uint bounce, vec3 direct, BsdfSample next) {
+#if LEARNS == LEARNS_BEYOND_NEE
+  path.td_target += average(direct);
+#endif
+}
+
+void record_survival(uint bounce, float survival) {}
+
+void update_after_ray(inout Path path, PreviousAction previous) {
+  gather_radiance(path.tally, previous.entry, path.td_target);
+#ifdef LEARNS_MIXTURE
+  gather_square(path.tally, previous.share, previous.weight * path.td_target);
+#endif
+}
+
+void update_after_path(inout Path path) {}
