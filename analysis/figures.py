@@ -75,11 +75,13 @@ def _request(options: argparse.Namespace) -> Request:
     check_exposure(options.exposure)
     if options.truth is not None and not (math.isfinite(options.truth) and options.truth > 0):
         raise command.AnalysisError(f"--truth is {options.truth:g} but must be a radiance above zero")
+    if options.seconds is not None and not options.seconds > 0:
+        raise command.AnalysisError(f"--seconds is {options.seconds:g} but must be above zero")
     if not options.results.is_dir():
         raise command.AnalysisError(f"{options.results}: no such folder; the folder of an experiment is needed, like "
                                     "results/convergence")
     frames = _frames(options.frames) if options.frames is not None else None
-    return Request(options.results, metric=options.metric, frames=frames, exposure=options.exposure,
+    return Request(options.results, metric=options.metric, frames=frames, seconds=options.seconds, exposure=options.exposure,
                    methods=options.method, truth=options.truth)
 
 
@@ -92,6 +94,7 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--metric", default="relmse", help="of curves and cost: a metric of the results (default: relmse)")
     parser.add_argument("--method", metavar="LABEL", action="append", default=[], help="of gains: only this one; may be repeated")
     parser.add_argument("--frames", metavar="N,N,...", help="of sheets: columns (default: all snapshots the runs share)")
+    parser.add_argument("--seconds", metavar="S", type=float, help="of sheets: what each method has after this time, side by side")
     parser.add_argument("--exposure", metavar="STOPS", type=float, default=0.0, help="of sheets: brightens by 2^STOPS")
     parser.add_argument("--truth", metavar="RADIANCE", type=float, help="of learning_curve: the true value of all entries")
     return parser.parse_args(arguments)

@@ -19,6 +19,7 @@ class Request:
     folder: Path
     metric: str = "relmse"
     frames: list[int] | None = None      # of sheets; None: all that the runs share
+    seconds: float | None = None         # of sheets, in place of frames: what each method has after this time
     exposure: float = 0.0                # of sheets, in stops
     methods: list[str] = field(default_factory=list)  # of gains; empty: all
     truth: float | None = None           # of learning curves: the radiance that the tables should have

@@ -1,5 +1,5 @@
 """A labelled sheet of images per scene: a row per method, a column per chosen frame, and the reference image last; all at
-one exposure, each with its samples and its relMSE."""
+one exposure, each with its samples and its relMSE. At equal seconds, methods stand side by side instead."""
 
 from __future__ import annotations
 
@@ -84,7 +84,26 @@ def scene_sheet(results: Results, scene: str, frames: list[int] | None, exposure
     return sheet(list(pictures), list(labels), len(columns) + (references is not None), exposure)
 
 
+def equal_time_sheet(results: Results, scene: str, seconds: float, exposure: float) -> Figure:
+    """What each method has after these seconds of rendering, learning included, side by side, and the reference."""
+    runs = shown_runs(results, scene)
+    panels: list[Panel] = []
+    for _, run in runs.iterrows():
+        snapshots = _snapshots(results, run.run)
+        reached = snapshots[snapshots.elapsed_s <= seconds]
+        if reached.empty:
+            raise AnalysisError(f"{results.folder / run.run}: its first snapshot is at {snapshots.elapsed_s.min():.3g} s, "
+                                f"after the {seconds:g} s that are asked for")
+        picture, label = _panel(results, run, int(reached.index.max()), exposure)
+        panels.append((picture, f"{label}, {reached.elapsed_s.max():.3g} s"))
+    references = _references(results, runs, exposure)
+    panels += [panel for panel in references or [] if panel[1]]
+    pictures, labels = zip(*panels)
+    return sheet(list(pictures), list(labels), len(panels), exposure)
+
+
 def draw(request: Request, medium: style.Medium) -> Iterator[Drawing]:
     for scene in dict.fromkeys(request.results.finished.scene):
-        figure = scene_sheet(request.results, scene, request.frames, request.exposure)
+        figure = (scene_sheet(request.results, scene, request.frames, request.exposure) if request.seconds is None else
+                  equal_time_sheet(request.results, scene, request.seconds, request.exposure))
         yield Drawing(f"sheet_{scene}", figure, dpi=figure.dpi)

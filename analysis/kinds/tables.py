@@ -16,18 +16,26 @@ from analysis.table_file import WRITERS, Field, Table, Value
 
 # Columns of configurations.csv besides the metrics, and what is read above them: a page has no room for the others, which
 # the CSV has.
-TIMES = {"host_ms_median": "ms/frame", "gpu_ms_median": "", "elapsed_s": ""}
-PRODUCT = {"relmse_x_s": "relMSE × s"}
-READ_METRICS = ("mse", "relmse", "flip")
+TIMES = ("host_ms_median", "gpu_ms_median", "elapsed_s")
+PRODUCT = "relmse_x_s"
+READ = ("host_ms_median", "mse", "relmse", "flip", PRODUCT)
 # Of ratios.csv.
-READ_RATIOS = {"ratio_host_ms_median": "ms/frame", "ratio_relmse": "relMSE", "ratio_relmse_x_s": "relMSE × s",
-               "ratio_time_to_relmse": "time to its relMSE"}
+READ_RATIOS = ("ratio_host_ms_median", "ratio_relmse", "ratio_relmse_x_s", "ratio_time_to_relmse")
 
 
 def _figures(results: Results) -> dict[str, str]:
     """Columns of the table of configurations, and their headings."""
-    metrics = {metric.name: metric.label if metric.name in READ_METRICS else "" for metric in errors(results.metrics.values())}
-    return TIMES | metrics | PRODUCT
+    names = [*TIMES, *(metric.name for metric in errors(results.metrics.values())), PRODUCT]
+    return {name: results.metrics[name].label if name in READ else "" for name in names if name in results.metrics}
+
+
+def _ratio_heading(results: Results, name: str) -> str:
+    """Of a column of ratios.csv; empty where it is not read."""
+    if name not in READ_RATIOS:
+        return ""
+    figure = name.removeprefix("ratio_").removeprefix("time_to_")
+    label = results.metrics[figure].label if figure in results.metrics else figure
+    return f"time to its {label}" if name.startswith("ratio_time_to_") else label
 
 
 def _value(row: pd.Series, name: str) -> Value:
@@ -66,7 +74,7 @@ def ratio_table(results: Results) -> Table | None:
         return None
     ratios = results.ratios
     names = [name for name in ratios.columns if f"{name}_low" in ratios and name.startswith("ratio_")]
-    figures = {name: READ_RATIOS.get(name, "") for name in names if _is_measured(ratios, name)}
+    figures = {name: _ratio_heading(results, name) for name in names if _is_measured(ratios, name)}
     rows: list[list[Field]] = [[row.scene, row.label, row.baseline_label, *(_value(row, name) for name in figures)]
                                for _, row in ratios.iterrows()]
     baseline = _one(rows, 2)

@@ -105,7 +105,7 @@ def _slope(row: Row, name: str, label: str) -> str:
 
 
 def _slopes(sweep: Sweep) -> Iterator[Finding]:
-    names = {f"slope_{metric.name}": metric.label for metric in sweep.metrics.values()}
+    names = {f"slope_{metric.name}": metric.label for metric in sweep.metrics.values() if metric.is_error}
     off = [(row, name) for row in sweep.configurations for name in names if slope_is_off(row, name)]
     if off:
         rows = len({row["configuration"] for row, _ in off})

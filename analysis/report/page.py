@@ -64,7 +64,7 @@ def _image_note(found: list[Gallery]) -> str:
 
 
 # Of configurations.csv, for the plot of speed against error.
-TIMES = {"elapsed_s": "seconds, learning included", "host_ms_median": "host ms/frame", "gpu_ms_median": "GPU ms/frame"}
+TIMES = ("elapsed_s", "host_ms_median", "gpu_ms_median")
 
 
 def _configuration_data(row: Row, figures: list[str]) -> dict[str, Any]:
@@ -78,8 +78,10 @@ def _data(sweep: Sweep, found: list[Gallery]) -> dict[str, Any]:
     points = curves.curves(sweep)
     labels = list(dict.fromkeys(row["label"] for row in sweep.configurations))
     metrics = curves.metric_names(sweep)
+    times = {name: "seconds, learning included" if name == "elapsed_s" else sweep.metrics[name].label
+             for name in TIMES if name in sweep.metrics}
     axes = {axis: {key: {"name": name} for key, name in names.items() if any(row.get(key) for row in sweep.configurations)}
-            for axis, names in (("x", TIMES), ("y", metrics))}
+            for axis, names in (("x", times), ("y", metrics))}
     return {"scenes": sweep.scenes, "labels": labels, "figures": axes,
             "configurations": [_configuration_data(row, [*axes["x"], *axes["y"]]) for row in sweep.configurations],
             "metrics": {name: metrics[name] for name in points}, "curves": points, "floors": curves.floors(sweep),
@@ -128,7 +130,7 @@ def render(sweep: Sweep) -> str:
     return environment.get_template("page.html").render(
         sweep=sweep, means_file=means_file, tolerances=tolerances, lead=_lead(sweep), found=found, outcome=findings.outcome(sweep, found), main_table=table.main_table(sweep),
         sections=_sections(bool(sweep.configurations), bool(images), bool(inspections or tables)), galleries=images,
-        image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), error_table=table.error_table(sweep), inspections=inspections,
+        image_note=_image_note(images), magma=_magma(), path_table=table.path_table(sweep), figure_table=table.figure_table(sweep), inspections=inspections,
         learned_note=learned_note, saved_tables=tables, published_ratios=_published_ratios(sweep),
         ratio_table=table.ratio_table(sweep), one_seed=all(row["seeds"] == "1" for row in sweep.configurations),
         run_table=table.run_table(sweep), facts=provenance.facts(sweep),

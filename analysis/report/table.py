@@ -42,17 +42,17 @@ def _has(sweep: Sweep, name: str) -> bool:
     return any(row.get(name) for row in sweep.configurations)
 
 
-# Figures of configurations.csv by column, with what stands above them; shown where some row has one.
+# Figures of configurations.csv that the main table has, with what is said of them; shown where some row has one.
 FIGURES = {
-    "host_ms_median": ("host ms/frame", "Median over a run's frames by the host's clock, mean over seeds"),
-    "published": ("published ms", "What the publication that the config names has"),
-    "relmse": ("relMSE", "At the last frame, mean over seeds"),
-    "filtered_relmse": ("relMSE filtered (biased)", "Of the filtered image"),
-    "elapsed_s": ("seconds", "Host time of all frames, learning included"),
-    "relmse_x_s": ("relMSE × s", "Error times time, lower is better: what is left when both are taken together"),
-    "slope_relmse": ("slope", "Of log relMSE against log spp; −1 where errors fall as 1/spp"),
-    "fireflies_per_million": ("fireflies / M", "Samples brighter than firefly_multiple times their pixel's reference"),
-    "gpu_ms_median": ("GPU ms/frame", "As host ms/frame, by the device's clock"),
+    "host_ms_median": "Median over a run's frames by the host's clock, mean over seeds",
+    "published": "What the publication that the config names has",
+    "relmse": "At the last frame, mean over seeds",
+    "filtered_relmse": "Of the filtered image",
+    "elapsed_s": "Host time of all frames, learning included",
+    "relmse_x_s": "Error times time, lower is better: what is left when both are taken together",
+    "slope_relmse": "Of log relMSE against log spp; −1 where errors fall as 1/spp",
+    "fireflies_per_million": "Samples brighter than firefly_multiple times their pixel's reference",
+    "gpu_ms_median": "As host ms/frame, by the device's clock",
 }
 RATIOS = {
     "ratio_relmse_x_s": ("efficiency gain", "The baseline's relMSE × s divided by this configuration's; above 1, this one is better than the baseline"),
@@ -98,15 +98,17 @@ def ratio_table(sweep: Sweep) -> Table:
                                    for row, ratios in rows])
 
 
-def error_table(sweep: Sweep) -> Table:
-    """Every metric that was measured."""
+def figure_table(sweep: Sweep) -> Table:
+    """Every figure of configurations.csv that the manifest names."""
     metrics = [metric for metric in sweep.metrics.values() if metric.per_configuration and _has(sweep, metric.name)]
-    return _table(sweep, [Column(metric.axis, metric.formula) for metric in metrics],
-                  [(row, [figure(row, metric.name) for metric in metrics]) for row in sweep.configurations])
+    columns = [Column(metric.label, "\n".join(filter(None, [metric.formula, metric.unit and f"in {metric.unit}"])))
+               for metric in metrics]
+    return _table(sweep, columns, [(row, [figure(row, metric.name) for metric in metrics]) for row in sweep.configurations])
 
 
-def _main_column(name: str) -> Column:
-    return Column(*{**FIGURES, **RATIOS}[name], strip=name in STRIPS)
+def _main_column(sweep: Sweep, name: str) -> Column:
+    label, help_text = RATIOS.get(name) or (sweep.metrics[name].label if name in sweep.metrics else name, FIGURES[name])
+    return Column(label, help_text, strip=name in STRIPS)
 
 
 def main_table(sweep: Sweep) -> Table:
@@ -116,7 +118,7 @@ def main_table(sweep: Sweep) -> Table:
     place = chosen.index("relmse_x_s") + 1 if "relmse_x_s" in chosen else len(chosen)
     chosen[place:place] = ratios
     verdicts = any(row.get("verdict") for row in sweep.summary)
-    columns = [*map(_main_column, chosen),
+    columns = [*(_main_column(sweep, name) for name in chosen),
                Column("frames", "One sample per pixel each"), Column("seeds", "Finished runs"), Column("non-finite", "Samples that were NaN or infinite"),
                Column("at floor", f"Seeds whose error is within {tolerances.REFERENCE_FLOOR} times the reference's own noise"),
                *([Column("verdict", "Against what the config expects", False)] if verdicts else [])]

@@ -1,4 +1,4 @@
-// Voronoi sites on the surfaces: the states of the Q-table (the report, section 4.3.1).
+// Voronoi sites on the surfaces: the states of the Q-table (Goswami 2020, section 4.3.1).
 #pragma once
 
 #include "engine/core/settings.h"

@@ -135,7 +135,7 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
       KnobInfo{
           "site_search", "",
           "how a hit finds its site: through lists of those that can be nearest in a box, through a tree, or "
-          "linear through all of the object's (the report); each finds the same"},
+          "linear through all of the object's (Goswami 2020); each finds the same"},
       rl.site_search);
   visit(KnobInfo{"cell_normal_threshold", "cosine",
                  "a site serves a hit point only if the cosine between their normals exceeds this", -1, 1},
@@ -143,7 +143,7 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
   visit(KnobInfo{"grid_resolution", "boxes", "boxes of cells grid along the scene's longest side", 1, 256},
         rl.grid_resolution);
   visit(KnobInfo{"bin_map", "",
-                 "direction bins as patches of cosine and azimuth (the report), or of a square mapped "
+                 "direction bins as patches of cosine and azimuth (Goswami 2020), or of a square mapped "
                  "concentrically; equal in solid angle either way"},
         rl.bin_map);
   visit(KnobInfo{"bins_theta", "bins", "rows of direction bins: along the cosine, or one side of the square",
@@ -153,8 +153,8 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
       KnobInfo{"bins_phi", "bins", "columns of direction bins: along the azimuth, or the other side", 1, 64},
       rl.bins_phi);
   visit(KnobInfo{"initial_table", "",
-                 "values before anything is learned: zero, initial_value, random in [0, initial_value) (the "
-                 "report), or initial_value times the bin's mean cosine"},
+                 "values before anything is learned: zero, initial_value, random in [0, initial_value) "
+                 "(Goswami 2020), or initial_value times the bin's mean cosine"},
         rl.initial_table);
   visit(KnobInfo{"initial_value", "radiance", "scale of an initial table other than zero", 1e-6, 1e6},
         rl.initial_value);
@@ -172,7 +172,7 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                "starting from that"},
       rl.mixture);
   visit(KnobInfo{"bsdf_fraction", "probability",
-                 "share of directions drawn from the BSDF instead of the table; 0 is the report", 0, 1},
+                 "share of directions drawn from the BSDF instead of the table; 0 is Goswami 2020", 0, 1},
         rl.bsdf_fraction);
   // The lower end keeps every bin reachable whatever was learned; without it the estimator is biased.
   visit(KnobInfo{"bin_floor", "probability", "share of table-drawn directions that picks its bin uniformly",

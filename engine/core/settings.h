@@ -97,9 +97,10 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
                  0, 1000000},
         settings.light_prior);
   visit(
-      KnobInfo{"bvh", "",
-               "bounding volume hierarchy: split by surface area and walked in the order of distance, or the "
-               "report's, split at medians and walked by links; images differ by rounding alone"},
+      KnobInfo{
+          "bvh", "",
+          "bounding volume hierarchy: split by surface area and walked in the order of distance, or that "
+          "of Goswami 2020, split at medians and walked by links; images differ by rounding alone"},
       settings.bvh);
   visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},
         settings.rl);

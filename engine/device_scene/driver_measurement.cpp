@@ -24,7 +24,8 @@ namespace {
 
 constexpr std::uint32_t kGroup = 64;  // invocations of a work group of ray_probe.comp
 constexpr int kRounds = 7;
-// A way must be faster by this factor than the usual one to be taken in its place: less is noise, and no gain.
+// A way must be faster by this factor than the usual one to be taken in its place: less is noise, and no
+// gain.
 constexpr double kWorthwhile = 0.93;
 
 // As many triangles as the shipped scenes have, in the unit cube.
@@ -105,7 +106,8 @@ class Bench {
   // A busy machine disturbs processor time less than the clock; a GPU's work is in the latter alone.
   double now_ms() const {
     constexpr double kMillisecondsPerSecond = 1000;
-    if (context_.device().software) return kMillisecondsPerSecond * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    if (context_.device().software)
+      return kMillisecondsPerSecond * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration<double, std::milli>(now).count();
   }

@@ -1,5 +1,5 @@
-// Which of the ways to compile shaders a driver runs fastest: measured with the ray queries of paths in a small room of
-// triangles, in a fraction of a second. All ways give the same answers.
+// Which of the ways to compile shaders a driver runs fastest: measured with the ray queries of paths in a
+// small room of triangles, in a fraction of a second. All ways give the same answers.
 #pragma once
 
 #include "engine/gpu/context.h"

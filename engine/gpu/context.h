@@ -31,8 +31,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const DeviceInfo& device() const;
-  // From now on shaders are compiled by these; at first by usual_choices(). Throws Error where the device does not
-  // offer them.
+  // From now on shaders are compiled by these; at first by usual_choices(). Throws Error where the device
+  // does not offer them.
   void use(const DriverChoices& choices);
   ProgramCache& programs() const;  // for as long as the context is not renewed
   void finish() const;             // returns when all work is done

@@ -16,8 +16,9 @@ struct DeviceInfo {
   std::string platform;    // how EGL reached it: "device" or "surfaceless"
   bool software = false;   // computes on the CPU
   DriverChoices choices;   // by which shaders are compiled for it
-  std::uint32_t loop_limit = 0;  // turns after which the driver ends all loops of an invocation; 0: none was seen
-  std::string problem;           // why it cannot be used; empty where it can
+  std::uint32_t loop_limit =
+      0;                // turns after which the driver ends all loops of an invocation; 0: none was seen
+  std::string problem;  // why it cannot be used; empty where it can
 };
 
 }  // namespace qtrace::gpu

@@ -49,7 +49,8 @@ bool splits_by_place(unsigned threads) {
     // The first group of a thread's part begins long before the last one of the part before.
     const auto begins_early = [&](std::uint32_t group) { return order[group] + part / 2 < order[group - 1]; };
     std::uint32_t found = 0;
-    for (std::uint32_t group = part; group < order.size(); group += part) found += begins_early(group) ? 1U : 0U;
+    for (std::uint32_t group = part; group < order.size(); group += part)
+      found += begins_early(group) ? 1U : 0U;
     if (2 * found >= threads - 1) return true;
   }
   return false;

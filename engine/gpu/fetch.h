@@ -8,7 +8,7 @@
 
 namespace qtrace::gpu {
 
-// In the order of the values in shaders/shared/fetch.glsl.
+// With the values in shaders/shared/variants.glsl (engine/tracer/shader_variant.cpp asserts it).
 enum class Fetch { texture, image, storage };
 
 // Whether the current context has as many units as shaders fetch from in this way (NVIDIA: 8 of images).

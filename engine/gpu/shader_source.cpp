@@ -63,8 +63,8 @@ class Assembler {
     mark(file, line + 1);
   }
 
-  // Where a condition stands around an include, its text may be left out there and wanted later: it is put in again
-  // until it stands under no condition, and a guard takes it once.
+  // Where a condition stands around an include, its text may be left out there and wanted later: it is put in
+  // again until it stands under no condition, and a guard takes it once.
   void emit(std::size_t file) {
     check(std::ranges::find(open_, file) == open_.end(), "shader {} includes itself", source_.files[file]);
     if (conditions_ == 0) emitted_[file] = true;

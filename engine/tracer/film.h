@@ -38,8 +38,7 @@ class Film {
   std::vector<gpu::Buffer*> gathered();
 
   std::size_t bytes() const {
-    return samples_.bytes() + odd_sums_.bytes() + even_sums_.bytes() + outliers_.bytes() +
-           counters_.bytes();
+    return samples_.bytes() + odd_sums_.bytes() + even_sums_.bytes() + outliers_.bytes() + counters_.bytes();
   }
 
  private:

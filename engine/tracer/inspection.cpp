@@ -54,7 +54,8 @@ class Sums {
   Hemisphere means(int size, const std::vector<gpu::Incident>& incidents) const {
     Hemisphere result{size, {}, {}, {}, cosine_};
     for (std::size_t i = 0; i < incidents.size(); ++i) {
-      result.bin.push_back(incidents[i].centre_bin == gpu::NO_BIN ? -1 : static_cast<int>(incidents[i].centre_bin));
+      result.bin.push_back(
+          incidents[i].centre_bin == gpu::NO_BIN ? -1 : static_cast<int>(incidents[i].centre_bin));
       result.radiance.push_back(paths_[i] > 0 ? radiance_[i] / paths_[i] : glm::dvec3(0));
     }
     for (std::size_t b = 0; b < bin_paths_.size(); ++b) {

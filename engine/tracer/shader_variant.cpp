@@ -17,9 +17,10 @@ struct Numbered {
   int number;  // in variants.glsl
 };
 #define NUMBERED(Enum, enumerator, number) \
-  Numbered { #enumerator, static_cast<int>(Enum::enumerator), number }
+  Numbered { #enumerator, static_cast < int>(Enum::enumerator), number }
 
-// Whether these are all enumerators of Choice, in their order, and host, shaders and configs mean the same by each.
+// Whether these are all enumerators of Choice, in their order, and host, shaders and configs mean the same by
+// each.
 template <class Choice>
 constexpr bool agree(std::initializer_list<Numbered> enumerators) {
   if (enumerators.size() != EnumNames<Choice>::values.size()) return false;
@@ -40,44 +41,44 @@ constexpr bool kIsNumbered<Sampler> = agree<Sampler>({NUMBERED(Sampler, bsdf, SA
                                                       NUMBERED(Sampler, uniform, SAMPLER_UNIFORM),
                                                       NUMBERED(Sampler, rl, SAMPLER_RL)});
 template <>
-constexpr bool kIsNumbered<Nee> = agree<Nee>(
-    {NUMBERED(Nee, none, NEE_NONE), NUMBERED(Nee, one_ray, NEE_ONE_RAY), NUMBERED(Nee, two_ray, NEE_TWO_RAY)});
+constexpr bool kIsNumbered<Nee> = agree<Nee>({NUMBERED(Nee, none, NEE_NONE),
+                                              NUMBERED(Nee, one_ray, NEE_ONE_RAY),
+                                              NUMBERED(Nee, two_ray, NEE_TWO_RAY)});
 template <>
-constexpr bool kIsNumbered<BvhKind> =
-    agree<BvhKind>({NUMBERED(BvhKind, sah, BVH_SAH), NUMBERED(BvhKind, threaded, BVH_THREADED)});
+constexpr bool kIsNumbered<BvhKind> = agree<BvhKind>({NUMBERED(BvhKind, sah, BVH_SAH),
+                                                      NUMBERED(BvhKind, threaded, BVH_THREADED)});
 template <>
-constexpr bool kIsNumbered<UpdateRule> =
-    agree<UpdateRule>({NUMBERED(UpdateRule, expected_sarsa, UPDATE_EXPECTED_SARSA),
-                       NUMBERED(UpdateRule, sarsa, UPDATE_SARSA),
-                       NUMBERED(UpdateRule, q_learning, UPDATE_Q_LEARNING),
-                       NUMBERED(UpdateRule, monte_carlo, UPDATE_MONTE_CARLO),
-                       NUMBERED(UpdateRule, paper_listing, UPDATE_PAPER_LISTING)});
+constexpr bool kIsNumbered<UpdateRule> = agree<UpdateRule>(
+    {NUMBERED(UpdateRule, expected_sarsa, UPDATE_EXPECTED_SARSA), NUMBERED(UpdateRule, sarsa, UPDATE_SARSA),
+     NUMBERED(UpdateRule, q_learning, UPDATE_Q_LEARNING),
+     NUMBERED(UpdateRule, monte_carlo, UPDATE_MONTE_CARLO),
+     NUMBERED(UpdateRule, paper_listing, UPDATE_PAPER_LISTING)});
 template <>
-constexpr bool kIsNumbered<Learns> =
-    agree<Learns>({NUMBERED(Learns, all, LEARNS_ALL), NUMBERED(Learns, beyond_nee, LEARNS_BEYOND_NEE)});
+constexpr bool kIsNumbered<Learns> = agree<Learns>({NUMBERED(Learns, all, LEARNS_ALL),
+                                                    NUMBERED(Learns, beyond_nee, LEARNS_BEYOND_NEE)});
 template <>
-constexpr bool kIsNumbered<LearningRate> =
-    agree<LearningRate>({NUMBERED(LearningRate, visits_per_bin, RATE_VISITS_PER_BIN),
-                         NUMBERED(LearningRate, visits_per_cell, RATE_VISITS_PER_CELL),
-                         NUMBERED(LearningRate, constant, RATE_CONSTANT),
-                         NUMBERED(LearningRate, power, RATE_POWER)});
+constexpr bool kIsNumbered<LearningRate> = agree<LearningRate>(
+    {NUMBERED(LearningRate, visits_per_bin, RATE_VISITS_PER_BIN),
+     NUMBERED(LearningRate, visits_per_cell, RATE_VISITS_PER_CELL),
+     NUMBERED(LearningRate, constant, RATE_CONSTANT), NUMBERED(LearningRate, power, RATE_POWER)});
 template <>
-constexpr bool kIsNumbered<CellKind> =
-    agree<CellKind>({NUMBERED(CellKind, voronoi, CELLS_VORONOI), NUMBERED(CellKind, grid, CELLS_GRID)});
+constexpr bool kIsNumbered<CellKind> = agree<CellKind>({NUMBERED(CellKind, voronoi, CELLS_VORONOI),
+                                                        NUMBERED(CellKind, grid, CELLS_GRID)});
 template <>
 constexpr bool kIsNumbered<SiteSearch> = agree<SiteSearch>(
     {NUMBERED(SiteSearch, lists, SITE_SEARCH_LISTS), NUMBERED(SiteSearch, tree, SITE_SEARCH_TREE),
      NUMBERED(SiteSearch, linear, SITE_SEARCH_LINEAR)});
 template <>
-constexpr bool kIsNumbered<BinMap> = agree<BinMap>(
-    {NUMBERED(BinMap, cylindrical, BIN_MAP_CYLINDRICAL), NUMBERED(BinMap, concentric, BIN_MAP_CONCENTRIC)});
+constexpr bool kIsNumbered<BinMap> = agree<BinMap>({NUMBERED(BinMap, cylindrical, BIN_MAP_CYLINDRICAL),
+                                                    NUMBERED(BinMap, concentric, BIN_MAP_CONCENTRIC)});
 template <>
 constexpr bool kIsNumbered<InitialTable> = agree<InitialTable>(
     {NUMBERED(InitialTable, zero, INITIAL_ZERO), NUMBERED(InitialTable, constant, INITIAL_CONSTANT),
      NUMBERED(InitialTable, random, INITIAL_RANDOM), NUMBERED(InitialTable, cosine, INITIAL_COSINE)});
 template <>
-constexpr bool kIsNumbered<BinWeight> = agree<BinWeight>(
-    {NUMBERED(BinWeight, value, BIN_WEIGHT_VALUE), NUMBERED(BinWeight, value_cosine, BIN_WEIGHT_VALUE_COSINE)});
+constexpr bool kIsNumbered<BinWeight> = agree<BinWeight>({NUMBERED(BinWeight, value, BIN_WEIGHT_VALUE),
+                                                          NUMBERED(BinWeight, value_cosine,
+                                                                   BIN_WEIGHT_VALUE_COSINE)});
 template <>
 constexpr bool kIsNumbered<Roulette> = agree<Roulette>({NUMBERED(Roulette, throughput, ROULETTE_THROUGHPUT),
                                                         NUMBERED(Roulette, reflectance, ROULETTE_REFLECTANCE),

@@ -12,7 +12,8 @@ namespace qtrace {
 // all there is.
 RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatures& features);
 
-// Actions of a table's state: direction bins, lights whose use is learned, and sides of a learned mixture. Of effective settings.
+// Actions of a table's state: direction bins, lights whose use is learned, and sides of a learned mixture. Of
+// effective settings.
 std::size_t table_actions(const RenderSettings& settings, const gpu::SceneFeatures& features);
 
 gpu::Defines shader_defines(const RenderSettings& settings, const gpu::SceneFeatures& features);

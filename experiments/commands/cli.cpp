@@ -12,6 +12,8 @@
 #include "experiments/runtime/stopper.h"
 #include "experiments/runtime/version.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <exception>
 

@@ -7,6 +7,8 @@
 #include "experiments/measure/heat_map.h"
 #include "experiments/measure/metrics.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>

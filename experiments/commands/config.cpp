@@ -5,6 +5,8 @@
 #include "experiments/runtime/manifest.h"
 #include "experiments/study/experiment.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <memory>
 #include <set>

@@ -4,6 +4,8 @@
 #include "engine/gpu/context.h"
 #include "experiments/files/text_table.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 
 namespace qtrace::experiments {

@@ -10,6 +10,8 @@
 #include "experiments/runtime/scene_store.h"
 #include "experiments/runtime/version.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -3,6 +3,8 @@
 #include "experiments/config/experiment_config.h"
 #include "experiments/files/text_table.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <memory>
 

@@ -8,6 +8,8 @@
 #include "experiments/runtime/driver_store.h"
 #include "experiments/runtime/manifest.h"
 
+#include <CLI/CLI.hpp>
+
 #include <unistd.h>
 
 #include <cstdio>

@@ -7,6 +7,8 @@
 #include "experiments/study/experiment.h"
 #include "experiments/study/plan.h"
 
+#include <CLI/CLI.hpp>
+
 #include <unistd.h>
 
 #include <algorithm>

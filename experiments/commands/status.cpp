@@ -6,6 +6,8 @@
 #include "experiments/runtime/progress.h"
 #include "experiments/study/results_folder.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -37,13 +39,13 @@ Json read_if_there(const fs::path& file) {
   }
 }
 
-std::string report_line(const Json& report) {
-  const double relmse = report.value("relmse", -1.0);
-  return fmt::format("  now: {}: frame {}/{}{}, {} left of this, {} of all\n", report.value("label", ""),
-                     report.value("frame", 0), report.value("frames", 0),
+std::string state_line(const Json& state) {
+  const double relmse = state.value("relmse", -1.0);
+  return fmt::format("  now: {}: frame {}/{}{}, {} left of this, {} of all\n", state.value("label", ""),
+                     state.value("frame", 0), state.value("frames", 0),
                      relmse < 0 ? "" : fmt::format(", relMSE {:.3g}", relmse),
-                     duration_text(report.value("stage_left_s", 0.0)),
-                     duration_text(report.value("all_left_s", 0.0)));
+                     duration_text(state.value("stage_left_s", 0.0)),
+                     duration_text(state.value("all_left_s", 0.0)));
 }
 
 std::string experiment_status(const fs::path& folder) {
@@ -78,8 +80,8 @@ std::string experiment_status(const fs::path& folder) {
   text += '\n';
   if (!holder.empty()) {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (!entry.path().filename().string().starts_with(kReportName)) continue;
-      if (const Json report = read_if_there(entry.path()); report.is_object()) text += report_line(report);
+      if (!entry.path().filename().string().starts_with(kProgressFile)) continue;
+      if (const Json now = read_if_there(entry.path()); now.is_object()) text += state_line(now);
     }
   }
   return text + failures;

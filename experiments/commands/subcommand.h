@@ -1,9 +1,11 @@
 // What every file of this folder adds to the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace qtrace::experiments {
 

@@ -7,6 +7,8 @@
 #include "experiments/runtime/subprocess.h"
 #include "experiments/study/experiment.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>

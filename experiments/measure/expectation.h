@@ -37,7 +37,7 @@ struct Expectation {
 
 template <class Visitor>
 void visit_knobs(Visitor& visit, Expectation& expect) {
-  visit(KnobInfo{"note", "", "what is hard about the run, for reports"}, expect.note);
+  visit(KnobInfo{"note", "", "what is hard about the run, for who reads the verdict"}, expect.note);
   visit(KnobInfo{"against", "",
                  "what the last image must agree with, beyond chance: its reference, or the reference and a "
                  "known mean; samples that are not finite never agree"},

@@ -107,7 +107,8 @@ void add_errors(Figures& figures) {
                        .source = metric.source,
                        .is_signed = metric.is_signed,
                        .is_averaged = metric.is_averaged,
-                       .is_compared = metric.is_compared});
+                       .is_compared = metric.is_compared,
+                       .is_error = metric.is_of_image && metric.is_averaged});
   }
   figures.push_back({.column = {"relmse_x_s", [](const R& row) { return maybe(row.relmse_x_seconds()); }},
                      .label = "relMSE × s",
@@ -268,6 +269,7 @@ Json figures_json() {
                    {"unit", figure.unit},
                    {"signed", figure.is_signed},
                    {"per_configuration", figure.is_averaged},
+                   {"error", figure.is_error},
                    {"formula", figure.formula},
                    {"source", figure.source}});
   }

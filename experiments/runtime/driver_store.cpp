@@ -37,14 +37,16 @@ fs::path cache_file(const gpu::DeviceInfo& device) {
   if (given.empty() && home.empty()) return {};
   const fs::path folder = (given.empty() ? fs::path(home) / ".cache" : fs::path(given)) / "qtrace";
   const unsigned threads = gpu::usual_choices().work_threads;
-  const std::string driver = fmt::format("{}\n{}\n{}\n{}", device.renderer, device.vendor, device.gl_version, threads);
+  const std::string driver =
+      fmt::format("{}\n{}\n{}\n{}", device.renderer, device.vendor, device.gl_version, threads);
   return folder / fmt::format("driver-{}.json", hash_text(driver));
 }
 
 // Where a manifest's device is the context's own.
 std::optional<gpu::DriverChoices> choices_in(const Json& device, const gpu::DeviceInfo& own) {
   try {
-    if (device.at("renderer") != own.renderer || device.at("gl_version") != own.gl_version) return std::nullopt;
+    if (device.at("renderer") != own.renderer || device.at("gl_version") != own.gl_version)
+      return std::nullopt;
     const auto fetch = gpu::fetch_named(device.at("buffer_fetch").get<std::string>());
     const auto stack = gpu::stack_named(device.at("traversal_stack").get<std::string>());
     const auto threads = device.at("work_threads").get<unsigned>();
@@ -57,7 +59,8 @@ std::optional<gpu::DriverChoices> choices_in(const Json& device, const gpu::Devi
   }
 }
 
-std::optional<gpu::DriverChoices> choices_of(const fs::path& file, const gpu::DeviceInfo& own, bool of_this_program) {
+std::optional<gpu::DriverChoices> choices_of(const fs::path& file, const gpu::DeviceInfo& own,
+                                             bool of_this_program) {
   try {
     const Json json = read_json_file(file);
     if (of_this_program && json.at("binary") != binary_hash()) return std::nullopt;
@@ -69,7 +72,8 @@ std::optional<gpu::DriverChoices> choices_of(const fs::path& file, const gpu::De
 
 std::string text_of(const gpu::DriverChoices& choices) {
   return fmt::format("buffers by {}, stack in {}, {} part{} of a dispatch", gpu::fetch_name(choices.fetch),
-                     gpu::stack_name(choices.stack), choices.work_threads, choices.work_threads == 1 ? "" : "s");
+                     gpu::stack_name(choices.stack), choices.work_threads,
+                     choices.work_threads == 1 ? "" : "s");
 }
 
 Json measurement_json(const gpu::DeviceInfo& device, const gpu::DriverMeasurement& measurement) {
@@ -79,7 +83,10 @@ Json measurement_json(const gpu::DeviceInfo& device, const gpu::DriverMeasuremen
                     {"traversal_stack", gpu::stack_name(way.choices.stack)},
                     {"milliseconds", way.milliseconds}});
   }
-  return {{"binary", binary_hash()}, {"measured", utc_now()}, {"device", device_json(device)}, {"ways", std::move(ways)}};
+  return {{"binary", binary_hash()},
+          {"measured", utc_now()},
+          {"device", device_json(device)},
+          {"ways", std::move(ways)}};
 }
 
 // Creates the file unless there is one: of several processes that try, one succeeds.
@@ -89,7 +96,7 @@ void create_once(const fs::path& file, const std::string& content) {
   const fs::path own = file.string() + fmt::format(".{}-{}", host_name(), ::getpid());
   write_bytes(own, content);
   std::error_code error;
-  fs::create_hard_link(own, file, error);  // fails where the file is there
+  fs::create_hard_link(own, file, error);                        // fails where the file is there
   if (error && !fs::exists(file)) fs::rename(own, file, error);  // a file system without such links
   fs::remove(own, error);
 }
@@ -109,7 +116,8 @@ gpu::DriverChoices parse_choices(const std::string& text, const gpu::DriverChoic
     } else if (name == "stack") {
       if (const auto stack = gpu::stack_named(value)) choices.stack = *stack, good = true;
     } else if (name == "work_threads") {
-      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), choices.work_threads);
+      const auto [end, error] =
+          std::from_chars(value.data(), value.data() + value.size(), choices.work_threads);
       good = error == std::errc() && end == value.data() + value.size() && choices.work_threads >= 1;
     }
     check(good,

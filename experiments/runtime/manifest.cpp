@@ -15,9 +15,12 @@ Json program_json() {
 }
 
 Json device_json(const gpu::DeviceInfo& device) {
-  return {{"renderer", device.renderer},        {"vendor", device.vendor},
-          {"gl_version", device.gl_version},    {"platform", device.platform},
-          {"software", device.software},        {"buffer_fetch", gpu::fetch_name(device.choices.fetch)},
+  return {{"renderer", device.renderer},
+          {"vendor", device.vendor},
+          {"gl_version", device.gl_version},
+          {"platform", device.platform},
+          {"software", device.software},
+          {"buffer_fetch", gpu::fetch_name(device.choices.fetch)},
           {"traversal_stack", gpu::stack_name(device.choices.stack)},
           {"work_threads", device.choices.work_threads},
           {"loop_limit", device.loop_limit == 0 ? Json() : Json(device.loop_limit)}};

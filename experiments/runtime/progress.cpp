@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLiveInterval{100};
 constexpr std::chrono::seconds kLineInterval{10};
-constexpr std::chrono::seconds kReportInterval{1};
+constexpr std::chrono::seconds kStateInterval{1};
 constexpr const char* kClearLine = "\r\x1b[K";
 
 std::size_t terminal_columns() {
@@ -25,13 +25,13 @@ std::size_t terminal_columns() {
 
 }  // namespace
 
-Json to_json(const ProgressReport& report) {
-  return {{"label", report.label},
-          {"frame", report.frame},
-          {"frames", report.frames},
-          {"relmse", report.relmse},
-          {"stage_left_s", report.stage_left_s},
-          {"all_left_s", report.all_left_s}};
+Json to_json(const ProgressState& state) {
+  return {{"label", state.label},
+          {"frame", state.frame},
+          {"frames", state.frames},
+          {"relmse", state.relmse},
+          {"stage_left_s", state.stage_left_s},
+          {"all_left_s", state.all_left_s}};
 }
 
 std::string duration_text(double seconds) {
@@ -71,11 +71,11 @@ void Progress::step(int frame, std::optional<double> relmse) {
   const bool is_live = mode_ == Mode::live;
   const bool shows =
       now - last_shown_ >= (is_live ? Clock::duration(kLiveInterval) : Clock::duration(kLineInterval));
-  const bool reports = !report_file_.empty() && now - reported_ >= kReportInterval;
-  if (!shows && !reports) return;
+  const bool writes = !state_file_.empty() && now - state_written_ >= kStateInterval;
+  if (!shows && !writes) return;
   const double stage_left = seconds_left((frames_ - frame_) * work_per_frame_);
   const double all_left = seconds_left(planned_ - done_ - (frame_ - first_) * work_per_frame_);
-  if (reports) report({label_, frame_, frames_, relmse_.value_or(-1), stage_left, all_left});
+  if (writes) write_state({label_, frame_, frames_, relmse_.value_or(-1), stage_left, all_left});
   if (!shows) return;
   last_shown_ = now;
   show(fmt::format("{}: frame {}/{}{}, {} left of this, {} of all", label_, frame_, frames_,
@@ -109,25 +109,25 @@ void Progress::warning(const std::string& line) {
 void Progress::keep_in(const std::filesystem::path& folder, const std::string& part) {
   const std::string suffix = part.empty() ? "" : "-" + part;
   log_ = std::make_unique<LogFile>(folder / fmt::format("log{}.txt", suffix));
-  report_file_ = folder / fmt::format("{}{}.json", kReportName, suffix);
+  state_file_ = folder / fmt::format("{}{}.json", kProgressFile, suffix);
 }
 
 void Progress::forget() {
   std::error_code ignored;
-  if (!report_file_.empty()) std::filesystem::remove(report_file_, ignored);
-  report_file_.clear();
+  if (!state_file_.empty()) std::filesystem::remove(state_file_, ignored);
+  state_file_.clear();
   log_.reset();
 }
 
 // Whole or not at all, but not flushed to the disk: it is of no use after a crash. Nothing depends on it.
-void Progress::report(const ProgressReport& report) {
-  reported_ = Clock::now();
+void Progress::write_state(const ProgressState& state) {
+  state_written_ = Clock::now();
   try {
-    AtomicFile file(report_file_);
-    write_bytes(file.temporary(), to_json(report).dump());
+    AtomicFile file(state_file_);
+    write_bytes(file.temporary(), to_json(state).dump());
     file.rename();
   } catch (const Error&) {
-    report_file_.clear();
+    state_file_.clear();
   }
 }
 

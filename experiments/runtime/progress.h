@@ -15,8 +15,8 @@ namespace qtrace::experiments {
 std::string duration_text(double seconds);
 
 // What a process at work tells of itself, in .progress.json or, of a shard, .progress-2-of-4.json.
-inline constexpr const char* kReportName = ".progress";
-struct ProgressReport {
+inline constexpr const char* kProgressFile = ".progress";
+struct ProgressState {
   std::string label;  // of the run or reference
   int frame = 0;
   int frames = 0;
@@ -25,7 +25,7 @@ struct ProgressReport {
   double all_left_s = 0;
 };
 
-Json to_json(const ProgressReport& report);
+Json to_json(const ProgressState& state);
 
 class Progress {
  public:
@@ -60,7 +60,7 @@ class Progress {
 
   double seconds_left(double work) const;
   void show(const std::string& line, bool live);
-  void report(const ProgressReport& report);
+  void write_state(const ProgressState& state);
 
   Mode mode_;
   double planned_ = 0;
@@ -76,8 +76,8 @@ class Progress {
   double work_per_frame_ = 0;
   std::optional<double> relmse_;  // last known of the stage
   std::unique_ptr<LogFile> log_;
-  std::filesystem::path report_file_;  // empty: none
-  Clock::time_point reported_;
+  std::filesystem::path state_file_;  // empty: none
+  Clock::time_point state_written_;
 };
 
 }  // namespace qtrace::experiments

@@ -1,5 +1,5 @@
-// Which part of a dispatch a work group does. llvmpipe gives each of its threads one contiguous run of groups and waits
-// for the last thread, so that half an image each would take as long as its costlier half. Here each thread does every
+// Which part of a dispatch a work group does. Where the driver gives each of its threads one contiguous run of groups
+// (shaders/README.md), half an image each would take as long as its costlier half. Here each thread does every
 // WORK_THREADS-th piece of neighbouring groups instead. Nothing but time depends on it.
 
 // Pieces of up to 2^WORK_PIECE_BITS groups: long enough that threads stream through memory of their own, short enough

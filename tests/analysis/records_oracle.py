@@ -14,8 +14,6 @@ from analysis.welch import Comparison, Side, welch
 
 FEWEST_POINTS = 3  # of a slope
 ENDS = ("", "_sd", "_low", "_high")
-# Figures of either sign besides the signed metrics: their intervals are symmetric.
-SIGNED = ("slope_mse", "slope_relmse")
 
 
 def signed_estimate(values: Sequence[float]) -> Estimate:

@@ -21,13 +21,15 @@ sys.path.insert(0, str(ROOT))
 SNAPSHOTS = [1, 2, 4, 8]
 REFERENCE_NOISE = {"reference_mse": 0.002, "reference_relmse": 0.01}
 # As the program's manifests have them, of schema 2.
-METRICS = [{"name": name, "label": label, "unit": unit, "signed": signed, "per_configuration": per_configuration,
-            "formula": f"formula of {name}", "source": "textbook"}
-           for name, label, unit, signed, per_configuration in (
-               ("mse", "MSE", "squared radiance", False, True), ("relmse", "relMSE", "", False, True),
-               ("relmse_trimmed", "relMSE trimmed", "", False, True), ("mape", "MAPE", "", False, True),
-               ("smape", "SMAPE", "", False, True), ("flip", "HDR-FLIP", "", False, True),
-               ("bias", "bias", "radiance", True, True), ("reference_mse", "the reference's MSE", "", False, False))]
+METRICS = [{"name": name, "label": label, "unit": unit, "signed": name == "bias", "per_configuration": averaged,
+            "error": is_error, "formula": f"formula of {name}", "source": "textbook"}
+           for name, label, unit, averaged, is_error in (
+               ("host_ms_median", "host ms/frame", "ms", True, False), ("elapsed_s", "s", "s", True, False),
+               ("mse", "MSE", "squared radiance", True, True), ("relmse", "relMSE", "", True, True),
+               ("relmse_trimmed", "relMSE trimmed", "", True, True), ("mape", "MAPE", "", True, True),
+               ("smape", "SMAPE", "", True, True), ("flip", "FLIP", "", True, True), ("bias", "bias", "radiance", True, True),
+               ("reference_mse", "reference's MSE", "squared radiance", False, False),
+               ("relmse_x_s", "relMSE × s", "s", True, False), ("slope_relmse", "slope of relMSE", "", True, False))]
 METHODS = {"NEE, two rays": 1.0, "BSDF": 10.0, "RL": 4.0}  # relMSE at one sample, for a seed in the middle
 SECONDS = {"NEE, two rays": 0.5, "BSDF": 0.25, "RL": 1.0}  # per frame
 

@@ -69,7 +69,7 @@ class CompareTest(FolderTest):
         b.convergence.loc[b.convergence.configuration == "occluded / BSDF", "relmse"] *= 1.02  # and by 10 %
         result = compare(a, b)
         verdicts = {(row.configuration, row.figure): row.verdict for row in result.rows}
-        self.assertEqual(verdicts["simple / RL", "ms/frame (host)"], "changed")
+        self.assertEqual(verdicts["simple / RL", "host ms/frame"], "changed")
         self.assertEqual(verdicts["occluded / BSDF", "relMSE"], "noise")
         self.assertEqual(verdicts["occluded / BSDF", "relMSE × s"], "noise")
         self.assertEqual((result.count("changed"), result.count("noise"), result.count("same")), (1, 2, 39))
@@ -109,13 +109,13 @@ class CompareTest(FolderTest):
         result = compare(load(folder), load(folder))
         self.assertEqual({row.verdict for row in result.rows}, {"same"})
         self.assertEqual(len({row.configuration for row in result.rows}), 35)
-        self.assertTrue({"MSE", "relMSE × s", "ms/frame (host)"} <= {row.figure for row in result.rows})
+        self.assertTrue({"MSE", "relMSE × s", "host ms/frame"} <= {row.figure for row in result.rows})
 
     def test_a_metric_that_only_the_manifest_knows(self) -> None:
         for side in (self.a, self.b):
             manifest = json.loads((side / "manifest.json").read_text())
             manifest["metrics"].append({"name": "gpu_elapsed_s", "label": "a new one", "unit": "x", "signed": False,
-                                        "per_configuration": True, "formula": "f", "source": "s"})
+                                        "per_configuration": True, "error": True, "formula": "f", "source": "s"})
             (side / "manifest.json").write_text(json.dumps(manifest))
         self.assertIn(("simple / RL", "a new one"), self.verdicts(load(self.a), load(self.b)))
 

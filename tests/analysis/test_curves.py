@@ -147,7 +147,7 @@ class CommandTest(FolderTest):
     def test_a_metric_that_only_the_manifest_knows(self) -> None:
         """Label and unit are its; nothing in Python names it."""
         entry = {"name": "gpu_elapsed_s", "label": "a new metric", "unit": "furlongs", "signed": False,
-                 "per_configuration": True, "formula": "f", "source": "s"}
+                 "per_configuration": True, "error": True, "formula": "f", "source": "s"}
         self.edit("manifest.json", lambda text: text.replace('"metrics": [', f'"metrics": [{json.dumps(entry)}, '))
         figure = convergence_figure(load(self.results), "gpu_elapsed_s")
         self.assertEqual(figure.axes[0].get_ylabel(), "a new metric (furlongs)")

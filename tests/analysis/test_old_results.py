@@ -43,8 +43,8 @@ class OldResultsTest(FolderTest):
     def test_metrics_have_the_labels_that_their_manifests_lack(self) -> None:
         metrics = load(self.results).metrics
         self.assertEqual([metrics[name].axis for name in ("mse", "flip", "psnr_db")],
-                         ["MSE (squared radiance)", "HDR-FLIP", "PSNR (dB)"])
-        self.assertTrue(metrics["bias"].signed and not metrics["relmse"].signed and metrics["mape"].per_configuration)
+                         ["MSE (squared radiance)", "FLIP", "PSNR (dB)"])
+        self.assertTrue(metrics["bias"].is_signed and not metrics["relmse"].is_signed and metrics["mape"].per_configuration)
         self.assertIn("(a - r)^2", metrics["mse"].formula)
 
     def test_manifests_of_runs(self) -> None:

@@ -107,14 +107,14 @@ class FiguresTest(ReportTest):
         self.assertEqual([number.short(text) for text in ("12.4274395", "0.0057667199", "1623.4", "", "-0.98593", "1e-9")],
                          ["12.4", "0.00577", "1620", "–", "−0.986", "1e−09"])
 
-    def test_every_metric_of_the_manifest_stands_in_the_table_of_metrics(self) -> None:
+    def test_every_figure_of_the_manifest_stands_in_the_table_of_figures(self) -> None:
         entry = {"name": "mean_path_length", "label": "a new metric", "unit": "segments", "signed": False,
                  "per_configuration": True, "formula": "its <formula>", "source": "s"}
         self.edit("manifest.json", lambda text: text.replace('"metrics": [', f'"metrics": [{json.dumps(entry)}, '))
         page = self.page()
-        self.assertEqual([field["data-value"] for field in page.tables["errors-table"][0]][2], "2.5")
-        self.assertIn("a new metric (segments)", page.text)
-        self.assertIn("its <formula>", page.text)
+        self.assertEqual([field["data-value"] for field in page.tables["figures-table"][0]][2], "2.5")
+        self.assertIn("a new metric", page.text)
+        self.assertIn("its &lt;formula&gt;\nin segments", page.source)
 
     def test_ratios_stand_beside_and_below(self) -> None:
         write_csv(self.results / "ratios.csv", [
@@ -215,8 +215,8 @@ class ContractTest(unittest.TestCase):
                            for file in (ROOT / "experiments" / room).glob("*.cpp"))
         for name in [*FIGURES, *COUNTS, "seeds_at_reference_floor", "mean_path_length", "zero_path_fraction", "noisy",
                      "warmup_detected", "verdict_reason"]:
-            # The clocks' and filter's columns are put together from two parts.
-            part = name.removeprefix("host").removeprefix("gpu").removeprefix("filtered_")
+            # Columns of clocks, filter and slopes are put together from two parts.
+            part = name.removeprefix("host").removeprefix("gpu").removeprefix("filtered_").removeprefix("slope_")
             self.assertTrue(name == "published" or f'"{name}"' in declared or f'"{part}"' in declared, name)
 
 

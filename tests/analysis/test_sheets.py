@@ -8,8 +8,9 @@ import matplotlib.image
 import numpy as np
 from matplotlib.figure import Figure
 
+from analysis.command import AnalysisError
 from analysis.figures import main
-from analysis.kinds.sheets import scene_sheet
+from analysis.kinds.sheets import equal_time_sheet, scene_sheet
 from analysis.load import load
 from analysis.tonemap import tonemap
 
@@ -74,6 +75,16 @@ class SheetTest(PicturesTest):
 
     def test_chosen_frames_and_one_exposure_for_all(self) -> None:
         self.assertEqual(self.panels("simple", [8, 2], -1.5), self.expected("simple", [8, 2], -1.5))
+
+    def test_at_equal_seconds_methods_stand_side_by_side_with_what_they_have_by_then(self) -> None:
+        figure = equal_time_sheet(load(self.results), "simple", 4.5, 0)
+        words = [axes.get_title() for axes in figure.axes]
+        self.assertEqual([title.split(" spp")[0] for title in words[:3]], ["NEE, two rays\n8", "BSDF\n8", "RL\n4"])
+        self.assertTrue(words[2].endswith(", 4.02 s"), words[2])
+        self.assertEqual(len(words), 4)
+        self.assertEqual(int(figure.axes[2].images[0].get_array()[0, 0, 0]), grey(radiance("RL", 4, 2)))
+        with self.assertRaisesRegex(AnalysisError, "its first snapshot is at"):
+            equal_time_sheet(load(self.results), "simple", 0.9, 0)
 
     def test_default_columns_are_the_snapshots_that_all_methods_have(self) -> None:
         run = self.run_of("simple", "RL", 2)

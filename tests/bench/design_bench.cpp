@@ -19,7 +19,7 @@
 namespace qtrace::bench {
 namespace {
 
-constexpr int kBounces = 5;  // the report's
+constexpr int kBounces = 5;  // Goswami's
 
 // A wavefront keeps its paths in memory between passes: origin, direction, throughput and radiance with what
 // fits beside them. Each scattering event reads them and writes them once.

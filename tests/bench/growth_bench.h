@@ -14,7 +14,7 @@ struct GrowthBenchOptions {
   std::filesystem::path out;
 };
 
-// One axis after another, triangles, sites, bins, bounces and pixels, from the settings of the report's
+// One axis after another, triangles, sites, bins, bounces and pixels, from the settings of Goswami's
 // table. Prints a table and writes growth.csv and growth_rounds.csv.
 void bench_growth(const gpu::Context& context, const GrowthBenchOptions& options);
 

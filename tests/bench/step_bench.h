@@ -6,7 +6,7 @@
 
 namespace qtrace::bench {
 
-// Of the configurations of the report's table that learn directions. Throws Error where the frame taken apart does not
+// Of the configurations of Goswami's table that learn directions. Throws Error where the frame taken apart does not
 // render the tracer's image. Prints a table and writes steps.csv and step_rounds.csv.
 //   a pass of its own (learning, accumulation) is timed as such;
 //   a step within the tracing shader is the difference that it makes to the time of that pass: look-up and

@@ -2,7 +2,7 @@
 #include "engine/gpu/driver.h"
 #include "engine/gltf/load_gltf.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ RadianceImage image_by(const Scene& scene, const RenderSettings& settings, const
 TEST(DriverChoices, AllRenderTheSame) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/many_lights.glb");
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.sampler = Sampler::rl;
   settings.nee = Nee::one_ray;

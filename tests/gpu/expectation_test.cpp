@@ -23,7 +23,10 @@ class Expectation : public LearningStage {
   double integral_in_view() const {
     constexpr std::uint32_t kRows = 2048;
     const auto sums = probe<glm::vec4>(
-        "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
+        "vec4",
+        {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+         "geometry/traverse.glsl"},
+        "",
         kViewedSurface +
             "Cell cell = find_cell(s);\nBsdf b = bsdf_of(s.material);\n"
             "float z = (float(index) + 0.5) / 2048.0;\nfloat sum = 0.0;\nuint i = 0u;\ndo {\n"

@@ -8,7 +8,7 @@
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -27,7 +27,7 @@ Scene shipped(const std::string& name) {
 
 RenderSettings grid_settings(int resolution) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = kSize;
   settings.rl.cells = CellKind::grid;
   settings.rl.grid_resolution = resolution;
@@ -38,9 +38,11 @@ RenderSettings grid_settings(int resolution) {
 // vectors.
 std::vector<glm::vec4> hits(const gpu::Defines& defines, const std::string& vector) {
   return probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
+      "vec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
       "uint pixel = index >> 1;\n"
-      "vec3 d = camera_direction(vec2(pixel % parameters.image_size.x, pixel / parameters.image_size.x) + 0.5);\n"
+      "vec3 d = camera_direction(vec2(pixel % parameters.image_size.x, pixel / parameters.image_size.x) + "
+      "0.5);\n"
       "Hit hit = closest_hit(parameters.camera_origin.xyz, d);\n"
       "result = vec4(-2.0);\n"
       "if (hit.triangle == NO_TRIANGLE) { results[index] = result; return; }\n"

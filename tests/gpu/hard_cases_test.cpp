@@ -2,7 +2,7 @@
 // `hard` (what is hard), `expected` and `measured`.
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <fmt/format.h>
@@ -118,7 +118,7 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
   constexpr float kAlbedo = 0.5F;
   const Scene scene = furnace_box(kAlbedo, 1);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 3;
   settings.rl.sites_per_object = 4;

@@ -142,12 +142,13 @@ std::string block_member(const std::string& name) {
 Program program_with(const std::string& name) {
   const std::string member = block_member(name);
   const bool block = !member.empty();
-  const std::string body = "#version 450 core\n#include \"shared/structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
-                           std::string(block ? "layout(std140, binding = 0) uniform B { "
-                                             : "layout(std430, binding = 0) buffer B { ") +
-                           name + " items" + (block ? "" : "[]") + "; };\n" +
-                           "layout(std430, binding = 1) buffer O { uint o; };\nvoid main() { o = uint(items" +
-                           (block ? member : ".length()") + "); }\n";
+  const std::string body =
+      "#version 450 core\n#include \"shared/structs.glsl\"\nlayout(local_size_x = 1) in;\n" +
+      std::string(block ? "layout(std140, binding = 0) uniform B { "
+                        : "layout(std430, binding = 0) buffer B { ") +
+      name + " items" + (block ? "" : "[]") + "; };\n" +
+      "layout(std430, binding = 1) buffer O { uint o; };\nvoid main() { o = uint(items" +
+      (block ? member : ".length()") + "); }\n";
   return Program(assemble("layout_test", body, {}));
 }
 

@@ -2,7 +2,7 @@
 #include "engine/gltf/load_gltf.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,10 @@ TEST_F(Learning, BrightestBinFacesTheLight) {
   render(tracer, 64);
   const std::vector<float> values = tracer.table()->values();
   const auto found = probe<glm::uvec4>(
-      "uvec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
+      "uvec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+       "geometry/traverse.glsl"},
+      "",
       kViewedSurface +
           "Cell cell = find_cell(s);\n"
           "uint bin = bin_of(to_cell(cell, s.normal, normalize(vec3(0.0, 1.0, 0.0) - s.position)));\n"
@@ -97,7 +100,9 @@ TEST_F(Learning, CutSearchForCellsIsNoticed) {
     settings_.rl.site_search = search;
     gpu::Defines defines = shader_defines(settings_, buffers_->features());
     defines["SEARCHES"] = searches;
-    const std::vector<std::string> files{"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"};
+    const std::vector<std::string> files{"shared/variants.glsl", "learning/cells.glsl",
+                                         "learning/qtable.glsl", "geometry/camera.glsl",
+                                         "geometry/traverse.glsl"};
     return probe<glm::uvec4>("uvec4", files, "", body, 8, defines)[0].y == 1;
   };
   EXPECT_FALSE(is_cut(SiteSearch::linear, "1"));
@@ -117,7 +122,7 @@ class GroupOrder : public testing::TestWithParam<UpdateRule> {};
 
 Bits rendered(const Scene& scene, UpdateRule rule, const gpu::Defines& order) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 64;  // 64 work groups
   settings.rl.sites_per_object = 20;
   settings.rl.update = rule;

@@ -4,7 +4,7 @@
 #include "engine/device_scene/light_table.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <algorithm>
@@ -180,7 +180,7 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(10))};
   add_quad(scene, {-10, 0, 0}, {0, 0, 20}, {20, 0, 0}, 0);  // its one site stands at (-10 + 20 v, 0, 20 u)
-  RlSettings one_site = report_table();
+  RlSettings one_site = goswami_table();
   one_site.sites_per_object = 1;
   const CellSites sites = place_sites(scene, one_site);
   const glm::vec3 corner = sites.sites[0].position - glm::vec3(0.05F, 0, 0.05F);
@@ -194,7 +194,7 @@ TEST(LearnedLights, StartFromWhatAnUnhiddenLightWouldBring) {
   add_light(2.001F, false);
   scene.camera = look_at({0, 1, 0}, {0, 0, 1}, 1);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.sampler = Sampler::bsdf;
   settings.nee = Nee::one_ray;
@@ -223,7 +223,7 @@ TEST(LearnedLights, AreTheMeanSquareOfTheirContribution) {
   add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, static_cast<std::uint32_t>(scene.materials.size() - 1));
   scene.camera = look_at({1, 1, 1}, {0, 0, 0}, 0.05F);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 1;
   settings.sampler = Sampler::bsdf;

@@ -1,7 +1,7 @@
 // Runs that need the same shaders share their programs, and do not disturb one another.
 #include "engine/scene/analytic.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 RenderSettings learning_settings() {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.sampler = Sampler::rl;
   settings.rl.sites_per_object = 4;

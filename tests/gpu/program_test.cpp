@@ -40,8 +40,8 @@ TEST(Program, UnknownIncludeIsNamed) {
 
 TEST(Program, LogsOfBothDriversAreRead) {
   const ShaderSource source{"", {"passes/trace.comp", "material/bsdf.glsl"}};
-  EXPECT_EQ(readable_log("0:100012(5): error: a", source), "bsdf.glsl:12: error: a\n");
-  EXPECT_EQ(readable_log("0(7) : error C1: b", source), "trace.comp:7: error C1: b\n");
+  EXPECT_EQ(readable_log("0:100012(5): error: a", source), "material/bsdf.glsl:12: error: a\n");
+  EXPECT_EQ(readable_log("0(7) : error C1: b", source), "passes/trace.comp:7: error C1: b\n");
 }
 
 }  // namespace

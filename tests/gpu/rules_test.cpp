@@ -3,7 +3,7 @@
 #include "tests/gpu/patterned_furnace.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 RenderSettings closed_settings(UpdateRule rule) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 16;
   settings.max_bounces = 24;  // monte_carlo knows no more than what a path reaches
   settings.russian_roulette_start = 24;
@@ -72,7 +72,7 @@ TEST_P(Rules, FindTheFurnacesRadiance) {
   }
 }
 
-// Beside the report's NEE, which counts no emission that a path meets, a ray still brings the direct light at
+// Beside Goswami's NEE, which counts no emission that a path meets, a ray still brings the direct light at
 // its end, and so on: Le / (1 - albedo) - Le.
 TEST_P(Rules, FindWhatNextEventEstimationLeaves) {
   if (GetParam() == UpdateRule::paper_listing) GTEST_SKIP() << "approaches nothing in particular";
@@ -108,7 +108,7 @@ TEST(MonteCarloRule, IsUnbiasedUnderRussianRoulette) {
   EXPECT_NEAR(mean_target(tracer), 2, 0.05);
 }
 
-// The report's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
+// Goswami's NEE traces no ray beyond a path's last event: of two, the first learns what is emitted at the
 // second, and what lamps send there.
 TEST(MonteCarloRule, CountsTheLightOfThePathsLastEvent) {
   RenderSettings settings = closed_settings(UpdateRule::monte_carlo);
@@ -131,7 +131,10 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
   std::vector<glm::dvec2> sums(states.size() * 16, glm::dvec2(0));  // radiance, samples
   constexpr std::uint32_t kRays = 1 << 19;
   const auto found = probe<glm::vec4>(
-      "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
+      "vec4",
+      {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+       "geometry/traverse.glsl", "sampling/random.glsl"},
+      "",
       radiance +
           ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
           // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.

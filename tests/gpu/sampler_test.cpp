@@ -6,7 +6,7 @@
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,9 @@ Event the_event() {
   return e;
 }
 )";
-const std::vector<std::string> kIncludes{"shared/variants.glsl", "sampling/random.glsl", "sampling/direction.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"};
+const std::vector<std::string> kIncludes{"shared/variants.glsl",    "sampling/random.glsl",
+                                         "sampling/direction.glsl", "learning/cells.glsl",
+                                         "geometry/camera.glsl",    "geometry/traverse.glsl"};
 
 struct Case {
   std::string name;
@@ -170,7 +172,7 @@ class Stage {
 
   static RenderSettings make_settings(const Case& c) {
     RenderSettings settings;
-    settings.rl = report_table();
+    settings.rl = goswami_table();
     settings.width = settings.height = 16;
     settings.sampler = c.sampler;
     settings.rl.bsdf_fraction = c.bsdf_fraction;

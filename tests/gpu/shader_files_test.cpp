@@ -1,4 +1,5 @@
-// Every file of shaders/ compiles on its own: it includes what it uses, whatever its includers have included before.
+// Every file of shaders/ compiles on its own: it includes what it uses, whatever its includers have included
+// before.
 #include "engine/gpu/driver.h"
 #include "engine/gpu/embedded_shaders.h"
 #include "engine/gpu/program.h"
@@ -70,7 +71,8 @@ std::vector<Variant> variants() {
 bool belongs_to(const std::string& file, const gpu::Defines& defines) {
   const bool has_table = defines.contains("HAS_TABLE");
   const bool has_bins = defines.contains("BINS_THETA");
-  if (file == "learning/cell.glsl" || file == "learning/grid.glsl" || file == "learning/voronoi.glsl") return true;
+  if (file == "learning/cell.glsl" || file == "learning/grid.glsl" || file == "learning/voronoi.glsl")
+    return true;
   if (file == "learning/bins.glsl" || file == "learning/qtable.glsl" || file == "learning/shrinkage.glsl")
     return has_bins;
   if (file == "path/td_rules.glsl") return has_bins;
@@ -80,8 +82,8 @@ bool belongs_to(const std::string& file, const gpu::Defines& defines) {
 
 // Compiled, not linked: what other files would call is not called here.
 void compile_alone(const std::string& file, const gpu::Defines& defines) {
-  const std::string text = "#version 450 core\n#include \"" + file +
-                           "\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n";
+  const std::string text =
+      "#version 450 core\n#include \"" + file + "\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n";
   const gpu::Program program(gpu::assemble("alone", text, gpu::for_driver(defines)));
 }
 

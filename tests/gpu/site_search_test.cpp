@@ -7,7 +7,7 @@
 #include "engine/tracer/limits.h"
 #include "engine/tracer/shader_variant.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -93,7 +93,7 @@ std::vector<glm::uvec4> search(const std::vector<Query>& queries, SiteSearch how
   const gpu::Buffer input("queries", queries);
   input.bind_storage(gpu::BINDING_SAMPLES);
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.rl.site_search = how;
   gpu::Defines defines = shader_defines(settings, {});
   defines.insert(more.begin(), more.end());
@@ -195,7 +195,7 @@ Listed expect_lists_agree(const Scene& scene, RlSettings settings) {
 }
 
 CellSites on_simple(SitePlacement placement, int sites) {
-  RlSettings settings = report_table();
+  RlSettings settings = goswami_table();
   settings.site_placement = placement;
   settings.sites_per_object = sites;
   return place_sites(load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb"), settings);
@@ -261,7 +261,7 @@ TEST(SiteSearch, ThroughListsOnTheShippedScene) {
   for (const SitePlacement placement : {SitePlacement::uv, SitePlacement::area}) {
     for (const int sites : {10, 100, 1000}) {
       SCOPED_TRACE(testing::Message() << sites << " sites, " << enum_name(placement));
-      RlSettings settings = report_table();
+      RlSettings settings = goswami_table();
       settings.site_placement = placement;
       settings.sites_per_object = sites;
       const Listed listed = expect_lists_agree(scene, settings);
@@ -271,7 +271,7 @@ TEST(SiteSearch, ThroughListsOnTheShippedScene) {
   }
   for (const double threshold : {-1.0, 0.5, 0.99}) {
     SCOPED_TRACE(testing::Message() << "threshold " << threshold);
-    RlSettings settings = report_table();
+    RlSettings settings = goswami_table();
     settings.cell_normal_threshold = threshold;
     const Listed listed = expect_lists_agree(scene, settings);
     EXPECT_GT(listed.area, 0.97);
@@ -284,7 +284,7 @@ TEST(SiteSearch, TooLongALinearSearchIsRefused) {
     GTEST_SKIP() << "this driver cuts no loops";
   const Scene scene = lit_floor(0.8F, 10, 1, 1).scene;
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.max_bounces = 5;
   settings.rl.sites_per_object = 100000;
   settings.rl.bins_theta = settings.rl.bins_phi = 2;

@@ -50,7 +50,8 @@ std::size_t count_leaks(const Scene& scene, const Walk& walk, glm::vec3 middle, 
   input.bind_storage(gpu::BINDING_SAMPLES);
   std::size_t leaks = 0;
   for (const glm::uvec4& r : probe<glm::uvec4>(
-           "uvec4", {"geometry/surface.glsl", "geometry/traverse.glsl", "sampling/random.glsl", "shared/loops.glsl"},
+           "uvec4",
+           {"geometry/surface.glsl", "geometry/traverse.glsl", "sampling/random.glsl", "shared/loops.glsl"},
            "struct Aim { vec4 from; vec4 to; };\n"
            "layout(std430, binding = BINDING_SAMPLES) readonly buffer AimBuffer { Aim aims[]; };",
            "vec3 from = aims[index].from.xyz;\nvec3 direction = normalize(aims[index].to.xyz - from);\n"

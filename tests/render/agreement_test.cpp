@@ -31,7 +31,7 @@ TEST(Agreement, AllMethodsOnOccluded) { expect_all_methods_agree(shipped("occlud
 
 TEST(Agreement, AllMethodsOnGlossyMaterials) { expect_all_methods_agree(glossy_room(), 96, {0.3, 0.2, 0.1}); }
 
-// Without the BSDF's share, all directions come from what was learned, as in the report.
+// Without the BSDF's share, all directions come from what was learned, as in Goswami 2020.
 TEST(Agreement, TableAloneWhileItLearns) {
   const Scene scene = shipped("cornell_box.glb");
   RenderSettings settings = with_method(base_settings(950), {"", Sampler::bsdf, Nee::one_ray, {}});

@@ -2,7 +2,7 @@
 
 #include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace qtrace::test {
 
 RenderSettings base_settings(std::uint32_t seed) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = kSize;
   settings.max_bounces = 4;
   settings.seed = seed;

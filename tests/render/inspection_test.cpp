@@ -3,7 +3,7 @@
 
 #include "engine/scene/analytic.h"
 #include "tests/support/render.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -20,7 +20,7 @@ constexpr int kSize = 64;  // of hemispheres
 
 RenderSettings small_settings(int max_bounces = 3) {
   RenderSettings settings;
-  settings.rl = report_table();
+  settings.rl = goswami_table();
   settings.width = settings.height = 24;
   settings.max_bounces = settings.russian_roulette_start = max_bounces;
   settings.rl.sites_per_object = 20;

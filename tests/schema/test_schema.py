@@ -86,7 +86,7 @@ class SchemaTest(unittest.TestCase):
         # One needs a scene that is generated when it is asked for.
         result = qtrace("config", "check", "--no-device", *(f for f in configs if f.stem != "stability_large"))
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("paper_table.json: good: 'paper_table', runs: 12, cells: 12\n", result.stdout)
+        self.assertIn("paper_table.json: good: 'paper_table', runs: 12, configurations: 12\n", result.stdout)
 
     def test_every_spelling_is_good(self) -> None:
         configs = {"nested": GOOD | {"rl": {"update": "sarsa"}}, "dotted": GOOD | {"rl.update": "sarsa"},
@@ -151,7 +151,7 @@ class SchemaTest(unittest.TestCase):
         self.addCleanup(broken.unlink)
         configs = {"disorder": (GOOD | {"snapshots": [4, 2]}, "must be increasing"),
                    "seeds": (GOOD | {"seed": 9001}, "'seed' and 'reference.seed' are both"),
-                   "baseline": (GOOD | {"baseline": "none"}, "must be a label or a cell"),
+                   "baseline": (GOOD | {"baseline": "none"}, "must be a label or a configuration"),
                    "no_scene": ({"name": "a"}, "key 'scene' is missing"),
                    "gone": (GOOD | {"scene": "gone.glb"}, "gone.glb: no such scene"),
                    "broken": (GOOD | {"scene": str(broken)}, broken.name), "good": (GOOD, "")}

@@ -5,8 +5,8 @@
 #include "experiments/measure/metrics.h"
 #include "experiments/records/ratios.h"
 
-#include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
+#include "engine/scene/analytic.h"
 #include "tests/support/render.h"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // closed surfaces, which no ray may leave.
 #include "engine/accel/build_bvh.h"
 #include "engine/accel/traverse.h"
-#include "engine/gpu/driver.h"
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gltf/load_gltf.h"
+#include "engine/gpu/driver.h"
 #include "tests/support/bumpy_ball.h"
 #include "tests/support/probe.h"
 #include "tests/support/ray_queries.h"
@@ -105,8 +105,8 @@ TEST_P(SlowRays, TenMillionAgreeWithTheOracle) {
     compare_with_oracle(name, GetParam());
 }
 
-// How many of so many batches of rays leave a ball: from about its middle to points on edges, a quarter of them
-// corners.
+// How many of so many batches of rays leave a ball: from about its middle to points on edges, a quarter of
+// them corners.
 std::uint64_t leaks_of(const Scene& scene, glm::vec3 middle, const Walk& walk, std::uint32_t batches) {
   const gpu::SceneBuffers buffers(scene, build_bvh(scene, walk.kind));
   buffers.bind();

@@ -7,8 +7,8 @@
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
+#include "tests/support/goswami.h"
 #include "tests/support/probe.h"
-#include "tests/support/report.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ class LearningStage : public testing::Test {
  protected:
   LearningStage() {
     scene_ = lit_floor(0.8F, 10, 1, 1).scene;
-    settings_.rl = report_table();
+    settings_.rl = goswami_table();
     settings_.rl.sites_per_object = 4;
     settings_.rl.bins_theta = settings_.rl.bins_phi = 2;
     build();
@@ -62,7 +62,10 @@ class LearningStage : public testing::Test {
   std::vector<float> next_values_in_view(std::uint32_t count = 1) const {
     std::vector<float> values;
     for (const glm::vec4& v : probe<glm::vec4>(
-             "vec4", {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl", "geometry/traverse.glsl", "sampling/random.glsl"}, "",
+             "vec4",
+             {"shared/variants.glsl", "learning/cells.glsl", "learning/qtable.glsl", "geometry/camera.glsl",
+              "geometry/traverse.glsl", "sampling/random.glsl"},
+             "",
              kViewedSurface +
                  "vec3 rotation = random_units(RandomKey(index, 1u, 5u), 1u).xyz;\n"
                  "result = vec4(next_value(s, bsdf_of(s.material), -d, find_cell(s), vec3(0.5), rotation));",

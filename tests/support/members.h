@@ -61,8 +61,8 @@ constexpr bool is_vector = false;
 template <class T>
 constexpr bool is_vector<std::vector<T>> = true;
 
-// Gives every value in `t` one of its own: 1, 2 and so on, with a fraction that needs every digit, or as text.
-// Vectors get two elements. Only one value of bool and of an enumeration is not the first.
+// Gives every value in `t` one of its own: 1, 2 and so on, with a fraction that needs every digit, or as
+// text. Vectors get two elements. Only one value of bool and of an enumeration is not the first.
 template <class T>
 void fill(T& t, int& last) {
   if constexpr (std::same_as<T, bool> || std::is_enum_v<T>) {

@@ -24,8 +24,8 @@ inline double z_threshold(std::size_t comparisons) {
 }
 
 // Pearson's chi-squared test. Neighbouring counts are pooled until each pool expects at least ten; what is
-// left at the end joins the last pool, but nothing may lie where nothing is expected. Returns the probability of
-// a worse fit. Throws where there is nothing to compare: one pool fits any counts.
+// left at the end joins the last pool, but nothing may lie where nothing is expected. Returns the probability
+// of a worse fit. Throws where there is nothing to compare: one pool fits any counts.
 inline double chi_squared_p(const std::vector<double>& observed, const std::vector<double>& expected) {
   if (observed.size() != expected.size()) throw std::invalid_argument("chi_squared_p: sizes differ");
   struct Pool {

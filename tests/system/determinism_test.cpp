@@ -20,8 +20,8 @@ constexpr const char* kConfig = R"({
              { "rl.update": ["expected_sarsa", "monte_carlo"] }, { "lights": ["power", "learned"] } ]
 })";
 
-// A variable of the environment for as long as it lives, and then as it was; programs that are started inherit
-// it.
+// A variable of the environment for as long as it lives, and then as it was; programs that are started
+// inherit it.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {

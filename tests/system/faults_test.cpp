@@ -20,8 +20,8 @@ TEST_F(Faults, AFrameThatTakesTooLongFailsItsRunAlone) {
   if (!test::device().device().software) GTEST_SKIP() << "a GPU may render the slow frame in time";
   folder_.write("hangs.json",
                 R"({"name": "hangs", "scene": "scene.gltf", "width": 8, "height": 8, "frames": 4,
-    "max_bounces": 3, "frame_timeout_s": 0.15, "reference": {"frames": 8},
-    "sweep": [{"run": {"before": {}, "slow": {"width": 1200, "height": 1200, "max_bounces": 30,
+    "max_bounces": 3, "reference": {"frames": 8},
+    "sweep": [{"run": {"before": {}, "slow": {"frame_timeout_s": 0.15, "width": 1200, "height": 1200, "max_bounces": 30,
                                               "russian_roulette_start": 30, "reference.frames": 2, "sampler": "bsdf", "nee": "two_ray"},
                        "after": {"max_bounces": 2}}}]})");
   const Outcome outcome = run_qtrace({"run", "hangs.json"}, folder_.path());

@@ -25,7 +25,7 @@ class Night : public RunProgram {
   }
 };
 
-TEST_F(Night, WhenTimeIsUpEveryCellHasAsMuchAsTheOthers) {
+TEST_F(Night, WhenTimeIsUpEveryConfigurationHasAsMuchAsTheOthers) {
   write_config("budget", 200'000);  // minutes
   const Outcome outcome = qtrace({"run", "budget.json", "--time-budget", "4s"});
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;

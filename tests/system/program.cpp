@@ -74,7 +74,7 @@ std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::str
   const Capture out, err;
   const pid_t child = start_qtrace(arguments, working, out, err);
   int status = 0;
-  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   bool is_ready = false;
   while (!is_ready && std::chrono::steady_clock::now() < latest) {
     if (::waitpid(child, &status, WNOHANG) == child) return std::nullopt;
@@ -107,7 +107,8 @@ void write_text(const fs::path& file, const std::string& text) {
 std::vector<std::string> tree(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    names.push_back(fs::relative(entry.path(), folder).string());
+    // By the letters alone: a program at work may have taken the file away again.
+    names.push_back(entry.path().lexically_relative(folder).string());
   }
   std::sort(names.begin(), names.end());
   return names;

@@ -19,13 +19,13 @@ struct Outcome {
 Outcome run_qtrace(const std::vector<std::string>& arguments, const std::filesystem::path& working);
 
 // Starts the same and sends it a signal as soon as `ready` says so. Nothing where it had ended before, or was
-// not ready within a minute.
+// not ready within five minutes.
 std::optional<Outcome> signal_qtrace_when(int signal, const std::vector<std::string>& arguments,
                                           const std::filesystem::path& working,
                                           const std::function<bool()>& ready);
 
 // The same with SIGKILL. Returns whether it was still running
-// then; false, too, where it was not ready within a minute.
+// then; false, too, where it was not ready within five minutes.
 bool kill_qtrace_when(const std::vector<std::string>& arguments, const std::filesystem::path& working,
                       const std::function<bool()>& ready);
 

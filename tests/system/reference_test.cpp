@@ -3,8 +3,8 @@
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 
-#include "experiments/images/exr.h"
 #include "experiments/files/state_file.h"
+#include "experiments/images/exr.h"
 
 #include <gtest/gtest.h>
 

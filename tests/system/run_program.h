@@ -4,8 +4,8 @@
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 
-#include "experiments/images/exr.h"
 #include "experiments/files/json.h"
+#include "experiments/images/exr.h"
 
 #include <gtest/gtest.h>
 

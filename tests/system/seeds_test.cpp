@@ -6,8 +6,9 @@
 namespace qtrace::tests {
 namespace {
 
-// Configurations take turns, seed by seed, whatever the order of the axes; files keep the order of the config.
-TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
+// Configurations take turns, seed by seed, whatever the order of the axes; files keep the order of the
+// config.
+TEST_F(RunProgram, ConfigurationsTakeTurnsAndTheOrderIsRecorded) {
   ASSERT_EQ(run("turns", kMethods).exit_code, 0);
   const auto summary = parse_csv(folder_.read("results/turns/summary.csv"));
   const std::vector<std::string> order{"1", "3", "2", "4"};  // NEE seed 1, 2, RL seed 1, 2
@@ -21,7 +22,7 @@ TEST_F(RunProgram, CellsTakeTurnsAndTheOrderIsRecorded) {
   EXPECT_LE(summary[2].at("started"), summary[1].at("started"));
 }
 
-TEST_F(RunProgram, CellsAndRatiosHaveIntervals) {
+TEST_F(RunProgram, ConfigurationsAndRatiosHaveIntervals) {
   const Outcome outcome = run("ratios", std::string(kMethods) + R"("baseline": "NEE, one ray", )");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto configurations = parse_csv(folder_.read("results/ratios/configurations.csv"));
@@ -70,9 +71,10 @@ TEST_F(RunProgram, BiasIsToldFromVariance) {
 TEST_F(RunProgram, AnUnknownBaselineIsRefused) {
   const Outcome outcome = run("lost", std::string(kMethods) + R"("baseline": "NEE, one rai", )");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_TRUE(contains(outcome.err,
-                       "key 'baseline' is 'NEE, one rai' but must be a label or a configuration of the sweep; "
-                       "did you mean 'NEE, one ray'?"))
+  EXPECT_TRUE(
+      contains(outcome.err,
+               "key 'baseline' is 'NEE, one rai' but must be a label or a configuration of the sweep; "
+               "did you mean 'NEE, one ray'?"))
       << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
 }

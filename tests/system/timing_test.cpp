@@ -2,9 +2,9 @@
 #include "tests/support/device.h"
 #include "tests/system/small_scene.h"
 
-#include "experiments/study/experiment.h"
 #include "experiments/reference/reference_store.h"
 #include "experiments/run/run.h"
+#include "experiments/study/experiment.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "tests/system/program.h"
 #include "tests/system/small_scene.h"
 
-#include "experiments/images/exr.h"
 #include "experiments/files/json.h"
 #include "experiments/files/npy.h"
+#include "experiments/images/exr.h"
 
 #include <gtest/gtest.h>
 

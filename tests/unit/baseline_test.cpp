@@ -64,14 +64,14 @@ std::vector<std::string> pairs(const std::vector<Ratios>& ratios) {
   return names;
 }
 
-TEST(Baseline, ALabelIsTheBaselineOfCellsThatDifferInItAlone) {
+TEST(Baseline, ALabelIsTheBaselineOfConfigurationsThatDifferInItAlone) {
   const std::vector<RunRecord> all = records();
   EXPECT_EQ(pairs(baseline_ratios(experiment("NEE"), collect_configurations(all))),
             (std::vector<std::string>{"a / RL / 10 to a / NEE / 10", "a / RL / 20 to a / NEE / 20",
                                       "b / RL / 10 to b / NEE / 10", "b / RL / 20 to b / NEE / 20"}));
 }
 
-TEST(Baseline, ACellIsTheBaselineOfItsNeighbours) {
+TEST(Baseline, AConfigurationIsTheBaselineOfItsNeighbours) {
   const std::vector<RunRecord> all = records();
   EXPECT_EQ(pairs(baseline_ratios(experiment("a / NEE / 10"), collect_configurations(all))),
             (std::vector<std::string>{"a / NEE / 20 to a / NEE / 10", "a / RL / 10 to a / NEE / 10"}));
@@ -80,7 +80,7 @@ TEST(Baseline, ACellIsTheBaselineOfItsNeighbours) {
 
 // RL with ten sites has half the error and half the seconds per frame: it reaches the error of four frames of
 // NEE after two frames, in a quarter of the time. With twenty sites it never does.
-TEST(Baseline, RatiosAreTheBaselinesFigureOverTheCells) {
+TEST(Baseline, RatiosAreTheBaselinesFigureOverTheConfigurations) {
   const std::vector<RunRecord> all = records();
   const std::vector<Ratios> ratios = baseline_ratios(experiment("NEE"), collect_configurations(all));
   const Ratios& fast = ratios.at(0);

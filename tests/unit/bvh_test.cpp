@@ -1,6 +1,6 @@
+#include "engine/accel/bvh.h"
 #include "engine/accel/median_bvh.h"
 #include "engine/accel/sah_bvh.h"
-#include "engine/accel/bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/core/check.h"
 #include "engine/gltf/load_gltf.h"

@@ -1,8 +1,8 @@
 #include "engine/cells/hammersley.h"
 #include "engine/cells/sites.h"
-#include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
-#include "tests/support/report.h"
+#include "engine/scene/analytic.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ TEST(Hammersley, IsTheKnownSet) {
 }
 
 RlSettings sites_each(SitePlacement placement, int count) {
-  RlSettings settings = test::report_table();
+  RlSettings settings = test::goswami_table();
   settings.site_placement = placement;
   settings.sites_per_object = count;
   return settings;

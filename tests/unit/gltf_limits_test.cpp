@@ -4,7 +4,6 @@
 #include "tests/support/cpu_time.h"
 #include "tests/unit/gltf_builder.h"
 
-
 namespace qtrace {
 namespace {
 

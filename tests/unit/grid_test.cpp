@@ -1,6 +1,6 @@
 #include "engine/cells/grid.h"
-#include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
+#include "engine/scene/analytic.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>

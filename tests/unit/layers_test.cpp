@@ -1,5 +1,5 @@
-// The way of the data has one direction: a folder includes only what stands before it, and no units stand in a
-// circle.
+// The way of the data has one direction: a folder includes only what stands before it, and no units stand in
+// a circle.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,11 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kLayers{
-    "engine/core",           "engine/scene",          "engine/gltf",         "engine/accel",
-    "engine/cells",          "engine/gpu",            "engine/device_scene", "engine/tracer",
-    "experiments/files",     "experiments/images",    "experiments/measure", "experiments/config",
-    "experiments/runtime",   "experiments/reference", "experiments/records", "experiments/run",
-    "experiments/study",     "experiments/commands"};
+    "engine/core",         "engine/scene",          "engine/gltf",
+    "engine/accel",        "engine/cells",          "engine/gpu",
+    "engine/device_scene", "engine/tracer",         "experiments/files",
+    "experiments/images",  "experiments/measure",   "experiments/config",
+    "experiments/runtime", "experiments/reference", "experiments/records",
+    "experiments/run",     "experiments/study",     "experiments/commands"};
 
 std::size_t layer_of(const std::string& path) {
   for (std::size_t i = 0; i < kLayers.size(); ++i) {

@@ -19,7 +19,7 @@ LearningSchedule schedule(int teach_frames, double update_growth) {
   return LearningSchedule(rl);
 }
 
-TEST(LearningSchedule, OfTheReportTeachesAndUpdatesEveryFrame) {
+TEST(LearningSchedule, OfThePaperTeachesAndUpdatesEveryFrame) {
   const LearningSchedule all = schedule(0, 0);
   for (std::uint32_t frame = 1; frame <= 1000; ++frame) {
     EXPECT_TRUE(all.teaches(frame));

@@ -1,13 +1,13 @@
 // Hashes and the parts of manifests.
-#include "engine/scene/analytic.h"
 #include "experiments/runtime/manifest.h"
-#include "experiments/study/experiment.h"
+#include "engine/scene/analytic.h"
 #include "experiments/config/config_hash.h"
-#include "experiments/runtime/scene_hash.h"
-#include "experiments/runtime/progress.h"
 #include "experiments/files/hash.h"
 #include "experiments/reference/reference.h"
 #include "experiments/run/run.h"
+#include "experiments/runtime/progress.h"
+#include "experiments/runtime/scene_hash.h"
+#include "experiments/study/experiment.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -66,8 +66,8 @@ TEST(ManifestHash, ConfigHashReplacesTheScenePathByItsContent) {
   EXPECT_NE(config_hash(config, "s"), config_hash(other, "s"));
 }
 
-// What is kept under these names must be found again by later programs: a knob or a member that is added enters a
-// hash only where it differs from what older programs did (KnobInfo::implied, Hasher::add_later).
+// What is kept under these names must be found again by later programs: a knob or a member that is added
+// enters a hash only where it differs from what older programs did (KnobInfo::implied, Hasher::add_later).
 TEST(ManifestHash, StandsStillWhileTheProgramGrows) {
   EXPECT_EQ(config_hash(RunConfig{}, "s"), "88e8341523e6700ac0b1bb676feed3dd");
   EXPECT_EQ(reference_spec(RunConfig{}, "s").hash, "6997ba0342f46cbb784c8b2ead21516c");

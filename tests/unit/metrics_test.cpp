@@ -197,7 +197,12 @@ TEST(Metrics, DefinitionsStateTheirConstants) {
 }
 
 TEST(Metrics, TheListHasEveryNumberOfAComparison) {
-  ErrorMetrics errors{1, 2, 3, 4, 5, 6, 7, 8, 9, ReferenceNoise{0.25, 0.5}};
+  ErrorMetrics errors;
+  errors.mse = 1;
+  errors.smape = 5;
+  errors.flip = 7;
+  errors.non_finite = 9;
+  errors.reference = ReferenceNoise{0.25, 0.5};
   const auto number = [&](const char* name) { return error_metric(name).number(errors); };
   EXPECT_EQ(number("mse"), 1);
   EXPECT_EQ(number("smape"), 5);

@@ -41,19 +41,20 @@ std::string text(const Experiment& experiment, const std::vector<Step>& steps) {
   std::string all;
   for (const Step& step : steps) {
     const Run& run = experiment.runs[step.turn.place];
-    all += run.configuration + std::to_string(step.turn.repetition + 1) + ":" + std::to_string(step.until) + " ";
+    all +=
+        run.configuration + std::to_string(step.turn.repetition + 1) + ":" + std::to_string(step.until) + " ";
   }
   return all;
 }
 
-TEST(Plan, EverySeedOfAllCellsBeforeTheNext) {
+TEST(Plan, EverySeedOfAllConfigurationsBeforeTheNext) {
   const Experiment experiment = six_runs();
   const auto turns = chosen_turns(experiment, {});
   EXPECT_EQ(text(experiment, steps_of(experiment, turns, 1)), "a1:64 b1:64 c1:64 a2:64 b2:64 c2:64 ");
   EXPECT_EQ(turns[3].order, 4);
 }
 
-TEST(Plan, InRoundsTheCellsGrowTogether) {
+TEST(Plan, InRoundsTheConfigurationsGrowTogether) {
   const Experiment experiment = six_runs();
   const auto turns = chosen_turns(experiment, {});
   EXPECT_EQ(text(experiment, steps_of(experiment, turns, 3)),

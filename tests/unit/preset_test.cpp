@@ -55,8 +55,8 @@ TEST_F(Presets, ErrorsNameTheFileAndWhatIsWrong) {
   EXPECT_NE(error(R"("preset": "p.json")").find("must hold one JSON object"), std::string::npos);
 }
 
-// The report's settings, spelled out once for configs and once for tests.
-TEST(Preset, OfTheReportIsWhatTheReportStates) {
+// The settings of Goswami 2020, spelled out once for configs and once for tests.
+TEST(Preset, OfThePaperIsWhatThePaperStates) {
   const Experiment experiment = load_experiment(QTRACE_SOURCE_DIR "/configs/paper_table.json");
   const RlSettings& rl = experiment.runs.back().config.render.rl;
   EXPECT_EQ(rl.bsdf_fraction, 0);

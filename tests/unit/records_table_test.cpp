@@ -1,6 +1,6 @@
 // summary.md from records that are made up.
-#include "experiments/records/summary_page.h"
 #include "experiments/files/text_table.h"
+#include "experiments/records/summary_page.h"
 
 #include <gtest/gtest.h>
 
@@ -123,7 +123,7 @@ TEST(RecordsTable, NamesFailedRunsAndFlagsTheFloor) {
   EXPECT_TRUE(contains(table, "not measured"));
 }
 
-TEST(RecordsTable, CellsAreAlignedByCharactersAndEscaped) {
+TEST(RecordsTable, FieldsAreAlignedByCharactersAndEscaped) {
   EXPECT_EQ(markdown_table({"a|b", "n"}, {{"±", "12345"}}, 1),
             "| a\\|b |     n |\n"
             "|------|------:|\n"

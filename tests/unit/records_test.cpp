@@ -188,16 +188,18 @@ TEST(Records, FailedRunsHaveNoErrorsButAReason) {
   EXPECT_EQ(field(columns, row, "frames"), "3");
 }
 
-TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
+TEST(Records, ConfigurationColumnsTakeFiguresOverTheSeeds) {
   const auto columns = configuration_columns({Axis{"method", false, {}}, Axis{"seed", true, {}}});
   expect_distinct(columns);
-  const Configuration configuration = collect_configurations({run_record("RL", 1, 0.25), run_record("RL", 2, 0.75)}).front();
+  const Configuration configuration =
+      collect_configurations({run_record("RL", 1, 0.25), run_record("RL", 2, 0.75)}).front();
   EXPECT_EQ(field(columns, configuration, "axis:method"), "RL");
   EXPECT_EQ(field(columns, configuration, "axis:seed"), "no such column");
   EXPECT_EQ(field(columns, configuration, "seeds"), "2");
   EXPECT_EQ(field(columns, configuration, "relmse"), "0.5");
   EXPECT_NEAR(std::stod(field(columns, configuration, "relmse_sd")), std::sqrt(0.125), 1e-15);
-  EXPECT_NEAR(std::stod(field(columns, configuration, "relmse_high")), 0.5 * std::exp(12.7062 * 0.25 / 0.5), 0.05);
+  EXPECT_NEAR(std::stod(field(columns, configuration, "relmse_high")), 0.5 * std::exp(12.7062 * 0.25 / 0.5),
+              0.05);
   EXPECT_NEAR(std::stod(field(columns, configuration, "clamp_bias_low")), -0.0625 - 12.7062 * 0.03125, 1e-5);
   EXPECT_EQ(field(columns, configuration, "flip"), "");
   const Configuration lonely = collect_configurations({run_record("RL", 1, 0.25)}).front();
@@ -205,11 +207,11 @@ TEST(Records, CellColumnsTakeFiguresOverTheSeeds) {
   EXPECT_EQ(field(columns, lonely, "relmse_low"), "");
 }
 
-TEST(Records, CellsPoolFramesAndAverageErrors) {
+TEST(Records, ConfigurationsPoolFramesAndAverageErrors) {
   RunRecord failed = run_record("RL", 3, 0);
   failed.status = RunStatus::failed;
-  const std::vector<Configuration> configurations =
-      collect_configurations({run_record("RL", 1, 0.25), run_record("NEE", 1, 1), run_record("RL", 2, 0.75), failed});
+  const std::vector<Configuration> configurations = collect_configurations(
+      {run_record("RL", 1, 0.25), run_record("NEE", 1, 1), run_record("RL", 2, 0.75), failed});
   ASSERT_EQ(configurations.size(), 2U);
   EXPECT_EQ(configurations[0].name, "RL");
   EXPECT_EQ(configurations[0].runs, 3U);

@@ -1,7 +1,7 @@
 // What a reference's hash depends on, and which files can serve.
-#include "experiments/images/exr_images.h"
 #include "engine/core/check.h"
 #include "experiments/images/exr.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/reference/reference_store.h"
 #include "tests/system/temp_folder.h"
 

@@ -1,6 +1,6 @@
-#include "engine/accel/median_bvh.h"
 #include "engine/accel/reinsertion.h"
 #include "engine/accel/bvh_tree.h"
+#include "engine/accel/median_bvh.h"
 #include "engine/accel/traverse.h"
 #include "engine/gltf/load_gltf.h"
 

@@ -1,4 +1,5 @@
-// Shaders include in one direction, too: a folder only what stands before it, and no file itself by way of others.
+// Shaders include in one direction, too: a folder only what stands before it, and no file itself by way of
+// others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +51,8 @@ std::ptrdiff_t place_of(const std::string& file) {
 }
 
 // The files from the first one seen twice on the way from `file`, to itself; none where there is no circle.
-std::vector<std::string> circle_from(const std::string& file, const Includes& all, std::vector<std::string> way) {
+std::vector<std::string> circle_from(const std::string& file, const Includes& all,
+                                     std::vector<std::string> way) {
   const auto seen = std::ranges::find(way, file);
   if (seen != way.end()) return {seen, way.end()};
   way.push_back(file);
@@ -69,7 +71,8 @@ TEST(ShaderLayers, NoRoomIncludesALaterOne) {
   for (const auto& [file, includes] : all) {
     EXPECT_LT(place_of(file), std::ssize(kRooms)) << file << " is in no room of the list";
     for (const std::string& include : includes) {
-      EXPECT_TRUE(all.contains(include)) << file << " includes " << include << ", which is not below shaders/";
+      EXPECT_TRUE(all.contains(include))
+          << file << " includes " << include << ", which is not below shaders/";
       EXPECT_LE(place_of(include), place_of(file)) << file << " includes " << include;
       EXPECT_FALSE(include.ends_with(".comp")) << file << " includes " << include;
     }
@@ -92,7 +95,9 @@ TEST(ShaderLayers, IncludesStandBeforeAllElse) {
     std::ifstream stream(root / file);
     bool is_head = true;
     for (std::string line; std::getline(stream, line);) {
-      if (line.starts_with("#include")) EXPECT_TRUE(is_head) << file << ": " << line;
+      if (line.starts_with("#include")) {
+        EXPECT_TRUE(is_head) << file << ": " << line;
+      }
       is_head = is_head && (line.empty() || line.starts_with("//") || line.starts_with("#"));
     }
   }

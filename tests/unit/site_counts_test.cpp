@@ -1,8 +1,8 @@
 #include "engine/cells/site_counts.h"
 #include "engine/cells/sites.h"
-#include "engine/scene/analytic.h"
 #include "engine/gltf/load_gltf.h"
-#include "tests/support/report.h"
+#include "engine/scene/analytic.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ Scene quads(const std::vector<float>& areas) {
 }
 
 RlSettings total(int sites) {
-  RlSettings settings = test::report_table();
+  RlSettings settings = test::goswami_table();
   settings.sites_per_object = 0;
   settings.total_sites = sites;
   return settings;
@@ -38,7 +38,7 @@ RlSettings total(int sites) {
 using Counts = std::vector<std::uint32_t>;
 
 TEST(SiteCounts, AreTheSameOnEveryObjectWithoutATotal) {
-  EXPECT_EQ(site_counts(quads({1, 9}), test::report_table()), (Counts{100, 100}));
+  EXPECT_EQ(site_counts(quads({1, 9}), test::goswami_table()), (Counts{100, 100}));
 }
 
 TEST(SiteCounts, FollowTheArea) {
@@ -63,7 +63,7 @@ TEST(SiteCounts, LeaveOutObjectsWithoutTriangles) {
   Scene scene = quads({1, 1});
   scene.objects.push_back({"empty", static_cast<std::uint32_t>(scene.triangles.size()), 0, false});
   EXPECT_EQ(site_counts(scene, total(7)), (Counts{4, 3, 0}));
-  EXPECT_EQ(site_counts(scene, test::report_table()), (Counts{100, 100, 0}));
+  EXPECT_EQ(site_counts(scene, test::goswami_table()), (Counts{100, 100, 0}));
 }
 
 TEST(SiteCounts, SumToTheTotalOnTheShippedScenes) {

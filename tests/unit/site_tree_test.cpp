@@ -1,7 +1,7 @@
 // Sites in tree order: what the search on the device takes for granted.
 #include "engine/cells/site_tree.h"
 #include "engine/gltf/load_gltf.h"
-#include "tests/support/report.h"
+#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(SiteTree, SplitsAtEveryNodeAndKeepsTheSites) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/simple.glb");
   for (const int count : {1, 2, 3, 4, 7, 8, 100, 500}) {
     SCOPED_TRACE(testing::Message() << count << " sites");
-    RlSettings settings = test::report_table();
+    RlSettings settings = test::goswami_table();
     settings.sites_per_object = count;
     const CellSites before = place_sites(scene, settings);
     CellSites after = before;

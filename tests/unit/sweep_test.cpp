@@ -179,12 +179,12 @@ TEST(Sweep, TooManyAxesAreRefused) {
   EXPECT_TRUE(refused("[" + axes + "]", "key 'sweep' has 60 axes but 50 are the most"));
 }
 
-// Found by fuzzing: each with a suggestion out of all cells.
-TEST(Sweep, ManyPublishedFiguresOfUnknownCellsAreCounted) {
-  std::string cells;
-  for (int i = 0; i < 2000; ++i) cells += fmt::format("{}\"zz{}\": 1", i == 0 ? "" : ",", i);
+// Found by fuzzing: each with a suggestion out of all configurations.
+TEST(Sweep, ManyPublishedFiguresOfUnknownConfigurationsAreCounted) {
+  std::string figures;
+  for (int i = 0; i < 2000; ++i) figures += fmt::format("{}\"zz{}\": 1", i == 0 ? "" : ",", i);
   const Experiment experiment =
-      sweep("[{\"width\": " + numbers(2000) + "}]", "\"published\": {\"ms_per_frame\": {" + cells + "}}, ");
+      sweep("[{\"width\": " + numbers(2000) + "}]", "\"published\": {\"ms_per_frame\": {" + figures + "}}, ");
   ASSERT_EQ(experiment.warnings.size(), 11U);
   EXPECT_NE(experiment.warnings[10].find("'published' names 1990 more"), std::string::npos)
       << experiment.warnings[10];
@@ -197,7 +197,7 @@ TEST(Sweep, SlugsAreSafeFileNames) {
   EXPECT_EQ(slug("é"), "");
 }
 
-TEST(Sweep, PublishedFiguresOfUnknownCellsAreWarnedOf) {
+TEST(Sweep, PublishedFiguresOfUnknownConfigurationsAreWarnedOf) {
   const Experiment experiment =
       sweep(R"([{"m": {"RL": {}, "NEE": {"sampler": "bsdf"}}}])",
             R"("published": {"ms_per_frame": {"RL": 3, "NE": 4}, "ratio": ["NEE", "RL"]}, )");

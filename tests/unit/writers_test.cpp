@@ -1,9 +1,9 @@
 // Files: EXR there and back, broken ones, and writing whole or not at all.
-#include "experiments/images/exr_images.h"
 #include "engine/core/check.h"
-#include "experiments/files/atomic_file.h"
 #include "experiments/commands/compare.h"
+#include "experiments/files/atomic_file.h"
 #include "experiments/images/exr.h"
+#include "experiments/images/exr_images.h"
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>

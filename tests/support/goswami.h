@@ -1,4 +1,4 @@
-// The report's settings of the table, on which tests of single mechanisms build: nothing shrunk, mixed or
+// Goswami's settings of the table, on which tests of single mechanisms build: nothing shrunk, mixed or
 // learned besides.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace qtrace::test {
 
-inline RlSettings report_table() {
+inline RlSettings goswami_table() {
   RlSettings rl;
   rl.learns = Learns::all;
   rl.site_placement = SitePlacement::uv;
