@@ -36,7 +36,8 @@ std::uint32_t probe_loop_limit() {
   buffer.bind_storage(BINDING_OUTPUT);
   plain_program("passes/loop_probe.comp").dispatch(1);
   const std::uint32_t done = buffer.read_all<std::uint32_t>()[2];
-  return done == kTurns * (kTurns + 1) ? 0 : done;
+  // Where loops are ended, the outer one still ends the turn that it is in.
+  return done == kTurns * (kTurns + 1) ? 0 : done - 1;
 }
 
 bool splits_by_place(unsigned threads) {
