@@ -30,14 +30,13 @@ std::vector<std::uint32_t> order_of_groups(const Program& program, std::uint32_t
 }  // namespace
 
 std::uint32_t probe_loop_limit() {
-  constexpr std::uint32_t kTurns = 512;  // of a loop, and of another in each of them
-  const std::array<std::uint32_t, 4> words{kTurns, kTurns, 0, 0};
-  const Buffer buffer("turns of loops", std::span<const std::uint32_t>(words));
+  constexpr std::uint32_t kTurns = 262144;
+  const std::array<std::uint32_t, 3> words{kTurns, 0, 0};
+  const Buffer buffer("turns of a loop", std::span<const std::uint32_t>(words));
   buffer.bind_storage(BINDING_OUTPUT);
   plain_program("passes/loop_probe.comp").dispatch(1);
-  const std::uint32_t done = buffer.read_all<std::uint32_t>()[2];
-  // Where loops are ended, the outer one still ends the turn that it is in.
-  return done == kTurns * (kTurns + 1) ? 0 : done - 1;
+  const std::uint32_t done = buffer.read_all<std::uint32_t>()[1];
+  return done == kTurns ? 0 : done;
 }
 
 bool splits_by_place(unsigned threads) {

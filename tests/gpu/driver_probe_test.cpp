@@ -36,6 +36,7 @@ TEST(DriverProbe, LoopLimitIsWhereLoopsEnd) {
 
 // llvmpipe alone is known to; the probe may miss it on a busy machine, and must not see it anywhere else.
 TEST(DriverProbe, OneThreadSplitsNothing) {
+  device();  // a context
   EXPECT_FALSE(gpu::splits_by_place(1));
   if (!gpu::is_llvmpipe()) {
     EXPECT_FALSE(gpu::splits_by_place(2));
