@@ -78,7 +78,7 @@ TEST_F(DriverOfAnExperiment, StaysAsItWasBegun) {
   ::setenv("QTRACE_DRIVER", "stack=registers", 1);
   const Outcome other = run("results");
   EXPECT_EQ(other.exit_code, 1);
-  EXPECT_TRUE(contains(other.err, "'traversal_stack' was memory and is registers")) << other.err;
+  EXPECT_TRUE(contains(other.err, "the device's 'traversal_stack' was \"memory\" and is \"registers\"")) << other.err;
 }
 
 // Shards have no manifest in common before they are merged.
