@@ -27,7 +27,7 @@ def _draw(axes: Axes, points: pd.DataFrame) -> None:
     barred = points.low.notna().to_numpy()
     if barred.any():
         bars = points[barred]
-        axes.errorbar(bars["mean"], lines[barred], xerr=[bars["mean"] - bars.low, bars.high - bars["mean"]],
+        axes.errorbar(bars["mean"], lines[barred], xerr=np.array([bars["mean"] - bars.low, bars.high - bars["mean"]]),
                       fmt="none", ecolor="0.45", capsize=2.5, zorder=2)
     for floor, face in ((False, style.COLOURS[0]), (True, "white")):
         some = (points.at_floor == floor).to_numpy()

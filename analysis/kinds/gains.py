@@ -45,7 +45,7 @@ def _draw(axes: Axes, gains: pd.DataFrame, column: str) -> None:
         own = gains[(gains.method == method) & (gains[column] > 0)]
         lines = [scenes.index(scene) + SPREAD * ((place + 0.5) / len(methods) - 0.5) for scene in own.scene]
         low, high = (own[f"{column}_{end}"].fillna(own[column]) for end in ("low", "high"))
-        axes.errorbar(own[column], lines, xerr=[own[column] - low, high - own[column]], capsize=2.5, elinewidth=1,
+        axes.errorbar(own[column], lines, xerr=np.array([own[column] - low, high - own[column]]), capsize=2.5, elinewidth=1,
                       label=method, **{**looks[method], "linestyle": "none"})
     axes.set_xscale("log")
     values = gains[[column, f"{column}_low", f"{column}_high"]].to_numpy(float)
