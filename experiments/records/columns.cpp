@@ -42,8 +42,8 @@ void add_verdict_columns(std::vector<Column<RunRecord>>& columns) {
 void add_figure_columns(std::vector<Column<Configuration>>& columns, const std::string& figure) {
   const auto column = [&](const std::string& suffix, CsvValue (*get)(const Estimate&)) {
     columns.push_back({figure + suffix, [figure, get](const Configuration& configuration) {
-                         const auto found = configuration.figures.find(figure);
-                         return found == configuration.figures.end() ? CsvValue() : get(found->second);
+                         const auto found = configuration.figure(figure);
+                         return found ? get(*found) : CsvValue();
                        }});
   };
   column("", [](const Estimate& e) { return CsvValue(e.mean); });
@@ -92,13 +92,6 @@ void add_time_to_error(std::vector<Column<Ratios>>& columns, const std::string& 
                [metric](const Ratios& row) { return row.times.at(metric).time; });
   add_interval(columns, "ratio_time_to_" + metric,
                [metric](const Ratios& row) { return row.times.at(metric).ratio; });
-}
-
-GetInterval ratio_figure(const std::string& name) {
-  return [name](const Ratios& row) {
-    const auto found = row.figures.find(name);
-    return found == row.figures.end() ? std::nullopt : std::optional(found->second);
-  };
 }
 
 }  // namespace
@@ -209,7 +202,8 @@ std::vector<Column<Ratios>> ratio_columns() {
   };
   for (const Figure& figure : run_figures()) {
     if (figure.is_compared)
-      add_interval(columns, "ratio_" + figure.column.name, ratio_figure(figure.column.name));
+      add_interval(columns, "ratio_" + figure.column.name,
+                   [name = figure.column.name](const Ratios& row) { return row.figure(name); });
   }
   for (const Metric& metric : error_metrics()) {
     if (metric.is_followed) add_time_to_error(columns, metric.name);

@@ -35,8 +35,9 @@ std::vector<CounterColumn> counter_columns();
 // In the order of the columns.
 const std::vector<Figure>& run_figures();
 
-// For manifests: name, label, unit, formula and source of every figure, whether it may be negative, whether it
-// is averaged over seeds, and whether it is an error of the image. What reads results takes its labels from there.
+// For manifests: name, label, unit, formula and source of every figure, whether it may be negative, whether
+// it is averaged over seeds, and whether it is an error of the image. What reads results takes its labels
+// from there.
 Json figures_json();
 
 }  // namespace qtrace::experiments

@@ -115,6 +115,11 @@ const Configuration* baseline_of(const Experiment& experiment, const Configurati
 
 }  // namespace
 
+std::optional<Interval> Ratios::figure(const std::string& column) const {
+  const auto found = figures.find(column);
+  return found == figures.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& below) {
   if (!(above.mean > 0) || !(below.mean > 0)) return std::nullopt;
   return welch(std::log(above.mean / below.mean), relative_error(above), relative_error(below));

@@ -48,6 +48,8 @@ struct Ratios {
   std::string scene;
   std::map<std::string, Interval> figures;   // by column of configurations.csv
   std::map<std::string, TimeToError> times;  // by metric: those that are followed
+
+  std::optional<Interval> figure(const std::string& column) const;  // nothing where one side has none
 };
 
 // Nothing where the experiment names no baseline. In the order of the configurations.

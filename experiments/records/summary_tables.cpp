@@ -118,19 +118,19 @@ std::vector<std::size_t> row_axes(const Experiment& experiment) {
   return axes;
 }
 
+std::string text_with_ends(double value, const std::optional<double>& low,
+                           const std::optional<double>& high) {
+  return low ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", value, *low, *high) : fmt::format("{:.3g}", value);
+}
+
 std::string interval_text(const std::optional<Interval>& interval) {
-  if (!interval) return kNothing;
-  return interval->low
-             ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", interval->value, *interval->low, *interval->high)
-             : fmt::format("{:.3g}", interval->value);
+  return interval ? text_with_ends(interval->value, interval->low, interval->high) : kNothing;
 }
 
 }  // namespace
 
 std::string estimate_text(const std::optional<Estimate>& value) {
-  if (!value) return kNothing;
-  return value->low ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", value->mean, *value->low, *value->high)
-                    : fmt::format("{:.3g}", value->mean);
+  return value ? text_with_ends(value->mean, value->low, value->high) : kNothing;
 }
 
 std::string configuration_table(const Experiment& experiment,
@@ -178,10 +178,7 @@ std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& sc
     std::vector<std::string>& row = rows.emplace_back();
     row = {ratio.configuration, ratio.baseline};
     for (const Figure& figure : run_figures()) {
-      if (!figure.is_compared) continue;
-      const auto found = ratio.figures.find(figure.column.name);
-      row.push_back(
-          interval_text(found == ratio.figures.end() ? std::nullopt : std::optional(found->second)));
+      if (figure.is_compared) row.push_back(interval_text(ratio.figure(figure.column.name)));
     }
     row.push_back(interval_text(ratio.times.at("relmse").ratio));
   }

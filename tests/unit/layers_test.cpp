@@ -1,11 +1,11 @@
 // The way of the data has one direction: a folder includes only what stands before it, and no units stand in
 // a circle.
+#include "tests/support/includes.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +14,9 @@ namespace qtrace {
 namespace {
 
 namespace fs = std::filesystem;
+using test::IncludeGraph;
+using test::includes_of;
+using test::reaches;
 
 const std::vector<std::string> kLayers{
     "engine/core",         "engine/scene",          "engine/gltf",
@@ -30,26 +33,13 @@ std::size_t layer_of(const std::string& path) {
   return kLayers.size();
 }
 
-std::vector<std::string> includes_of(const fs::path& file) {
-  static const std::regex directive(R"(^\s*#include\s+"([^"]+)\")");
-  std::vector<std::string> names;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, directive)) names.push_back(match[1]);
-  }
-  return names;
-}
-
 // A unit is a .h with its .cpp: the path without its extension.
 std::string unit_of(const std::string& path) { return path.substr(0, path.rfind('.')); }
 
-using Graph = std::map<std::string, std::set<std::string>>;
-
 // What each unit of the layers includes.
-Graph units() {
+IncludeGraph units() {
   const fs::path root = QTRACE_SOURCE_DIR;
-  Graph graph;
+  IncludeGraph graph;
   for (const std::string& layer : kLayers) {
     for (const auto& entry : fs::directory_iterator(root / layer)) {
       const std::string extension = entry.path().extension();
@@ -64,24 +54,8 @@ Graph units() {
   return graph;
 }
 
-// Whether `to` is reached from `from` by one include or more.
-bool reaches(const Graph& graph, const std::string& from, const std::string& to) {
-  std::set<std::string> seen;
-  std::vector<std::string> waiting{from};
-  while (!waiting.empty()) {
-    const auto unit = graph.find(waiting.back());
-    waiting.pop_back();
-    if (unit == graph.end()) continue;
-    for (const std::string& next : unit->second) {
-      if (next == to) return true;
-      if (seen.insert(next).second) waiting.push_back(next);
-    }
-  }
-  return false;
-}
-
 TEST(Layers, NoUnitsStandInACircle) {
-  const Graph graph = units();
+  const IncludeGraph graph = units();
   ASSERT_GT(graph.size(), 100U);
   for (const auto& [unit, included] : graph) {
     EXPECT_FALSE(reaches(graph, unit, unit)) << unit << " is included by what it includes";

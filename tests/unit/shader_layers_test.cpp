@@ -1,12 +1,12 @@
 // Shaders include in one direction, too: a folder only what stands before it, and no file itself by way of
 // others.
+#include "tests/support/includes.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -14,32 +14,23 @@ namespace qtrace {
 namespace {
 
 namespace fs = std::filesystem;
+using test::IncludeGraph;
+using test::includes_of;
+using test::reaches;
 
 // As in shaders/README.md.
 const std::vector<std::string> kRooms{"shared",   "geometry", "material", "learning",
                                       "sampling", "light",    "path",     "passes"};
 
 // By file, both below shaders/.
-using Includes = std::map<std::string, std::vector<std::string>>;
-
-std::vector<std::string> includes_of(const fs::path& file) {
-  static const std::regex directive(R"(^\s*#include\s+"([^"]+)\")");
-  std::vector<std::string> names;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, directive)) names.push_back(match[1]);
-  }
-  return names;
-}
-
-Includes read_shaders() {
+IncludeGraph read_shaders() {
   const fs::path root = fs::path(QTRACE_SOURCE_DIR) / "shaders";
-  Includes all;
+  IncludeGraph all;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension();
     if (extension != ".glsl" && extension != ".comp") continue;
-    all[entry.path().lexically_relative(root).string()] = includes_of(entry.path());
+    const std::vector<std::string> names = includes_of(entry.path());
+    all[entry.path().lexically_relative(root).string()] = {names.begin(), names.end()};
   }
   return all;
 }
@@ -50,23 +41,8 @@ std::ptrdiff_t place_of(const std::string& file) {
   return std::ranges::find(kRooms, room_of(file)) - kRooms.begin();
 }
 
-// The files from the first one seen twice on the way from `file`, to itself; none where there is no circle.
-std::vector<std::string> circle_from(const std::string& file, const Includes& all,
-                                     std::vector<std::string> way) {
-  const auto seen = std::ranges::find(way, file);
-  if (seen != way.end()) return {seen, way.end()};
-  way.push_back(file);
-  const auto found = all.find(file);
-  if (found == all.end()) return {};
-  for (const std::string& include : found->second) {
-    std::vector<std::string> circle = circle_from(include, all, way);
-    if (!circle.empty()) return circle;
-  }
-  return {};
-}
-
 TEST(ShaderLayers, NoRoomIncludesALaterOne) {
-  const Includes all = read_shaders();
+  const IncludeGraph all = read_shaders();
   EXPECT_GT(all.size(), 30U);
   for (const auto& [file, includes] : all) {
     EXPECT_LT(place_of(file), std::ssize(kRooms)) << file << " is in no room of the list";
@@ -80,11 +56,9 @@ TEST(ShaderLayers, NoRoomIncludesALaterOne) {
 }
 
 TEST(ShaderLayers, NoFileIncludesItselfByWayOfOthers) {
-  const Includes all = read_shaders();
+  const IncludeGraph all = read_shaders();
   for (const auto& [file, includes] : all) {
-    std::string text;
-    for (const std::string& step : circle_from(file, all, {})) text += step + " -> ";
-    EXPECT_EQ(text, "");
+    EXPECT_FALSE(reaches(all, file, file)) << file << " is included by what it includes";
   }
 }
 
