@@ -75,10 +75,7 @@ void add_config_command(CLI::App& app, Action& action) {
       "Checks files and their scenes as a run would, without rendering: exit code 1 if one is wrong");
   const auto options = std::make_shared<ConfigOptions>();
   check->add_option("FILE", options->files, "experiment files (JSON)")->required();
-  check->add_option("--set", options->sets, "key=value, as of `qtrace run`")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  add_repeated_option(*check, "--set", options->sets, "key=value, as of `qtrace run`");
   check->add_option("--device", options->device, "index or part of a name, see `qtrace devices`");
   check->add_flag("--no-device", options->no_device,
                   "leaves out what depends on a device: whether its buffers are large enough");

@@ -50,7 +50,7 @@ std::string dry_run(const Experiment& experiment, const gpu::Context& context, S
     states[turn.place] = state;
     if (state.frames < experiment.runs[turn.place].config.frames) left.push_back(turn);
   }
-  const Calibration calibration(experiment, left, context, scenes, progress);
+  const Calibration calibration(experiment, left, context, inputs, progress);
   double seconds = 0;
   std::vector<std::vector<std::string>> rows;
   for (const Turn& turn : turns) {
@@ -89,7 +89,7 @@ std::string dry_run(const Experiment& experiment, const gpu::Context& context, S
   text += fmt::format("time: about {}, {}, besides images and errors\n", duration_text(seconds),
                       calibration.text());
   text += fmt::format("disk: at most {} of {} free\n",
-                      bytes_text(needed_bytes(experiment, left, missing, scenes)),
+                      bytes_text(needed_bytes(experiment, left, missing, inputs)),
                       bytes_text(free_bytes(folder)));
   return text;
 }

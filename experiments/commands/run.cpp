@@ -165,12 +165,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& words, Actio
   RunChoices& choices = options.choices;
   run->add_option("CONFIG", options.configs, "experiment file (JSON); `qtrace keys` lists its keys")
       ->required();
-  run->add_option("--set", options.sets,
-                  "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
-                  "--set 'sweep.seed=[1,2]'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  add_repeated_option(*run, "--set", options.sets,
+                      "key=value, changes a key of the configs: --set frames=8 --set rl.bins_phi=4 "
+                      "--set 'sweep.seed=[1,2]'");
   run->add_option("--out", choices.root, "folder of the results")->capture_default_str();
   run->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
   run->add_option("--only", choices.only, "only the runs whose name fits this pattern with * and ?");

@@ -137,10 +137,7 @@ void add_submit_command(CLI::App& app, Action& action) {
   submit->add_flag("--slurm")->required()->description("the cluster's scheduler; the only one so far");
   submit->add_option("--shards", options.shards, "parts that can run at the same time: tasks of a job array")
       ->required();
-  submit->add_option("--set", options.sets, "key=value, as in `qtrace run`")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  add_repeated_option(*submit, "--set", options.sets, "key=value, as in `qtrace run`");
   submit->add_option("--out", options.out, "folder of the results, which all nodes see")
       ->capture_default_str();
   submit->add_option("--device", options.device, "index or part of a name, see `qtrace devices`");
@@ -149,12 +146,8 @@ void add_submit_command(CLI::App& app, Action& action) {
       ->check(CLI::PositiveNumber);
   submit->add_option("--time", options.time, "of each job, as sbatch wants it; out of it, a job continues");
   submit->add_option("--partition", options.partition, "of all jobs");
-  submit
-      ->add_option("--sbatch", options.sbatch,
-                   "further options of all jobs: --sbatch='--mem=4G --gres=gpu:1'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  add_repeated_option(*submit, "--sbatch", options.sbatch,
+                      "further options of all jobs: --sbatch='--mem=4G --gres=gpu:1'");
   submit->add_flag("--dry-run", options.dry_run,
                    "check everything, print the scripts, write and submit nothing");
   submit->callback([&action, kept] {

@@ -40,20 +40,18 @@ Speed measure_speed(const gpu::Context& context, const Scene& scene, const Rende
 }
 
 Calibration::Calibration(const Experiment& experiment, const std::vector<Turn>& turns,
-                         const gpu::Context& context, SceneStore& scenes, Progress& progress) {
-  std::vector<const Run*> firsts;  // of each configuration
+                         const gpu::Context& context, const ExperimentInputs& inputs, Progress& progress) {
+  std::vector<Turn> firsts;  // of each configuration
   std::set<std::string> seen;
   for (const Turn& turn : turns) {
-    const Run& run = experiment.runs[turn.place];
-    if (seen.insert(run.configuration).second) firsts.push_back(&run);
+    if (seen.insert(experiment.runs[turn.place].configuration).second) firsts.push_back(turn);
   }
   configurations_ = firsts.size();
   const std::size_t step = std::max<std::size_t>(1, (configurations_ + kMostMeasured - 1) / kMostMeasured);
   for (std::size_t i = 0; i < configurations_; i += step) {
-    const Run& run = *firsts[i];
+    const Run& run = experiment.runs[firsts[i].place];
     progress.note(fmt::format("measuring {}", run.configuration));
-    speeds_[run.configuration] =
-        measure_speed(context, scenes.load(experiment.scene_file(run)).scene, run.config.render);
+    speeds_[run.configuration] = measure_speed(context, inputs.of(firsts[i]).scene->scene, run.config.render);
   }
 }
 

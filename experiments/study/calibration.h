@@ -3,7 +3,7 @@
 
 #include "engine/gpu/context.h"
 #include "experiments/runtime/progress.h"
-#include "experiments/runtime/scene_store.h"
+#include "experiments/study/experiment_inputs.h"
 #include "experiments/study/plan.h"
 
 #include <map>
@@ -26,7 +26,7 @@ class Calibration {
  public:
   // Measures.
   Calibration(const Experiment& experiment, const std::vector<Turn>& turns, const gpu::Context& context,
-              SceneStore& scenes, Progress& progress);
+              const ExperimentInputs& inputs, Progress& progress);
 
   double seconds(const Run& run, int frames) const;  // setup included; 0 for no frames
   std::string text() const;                          // "measured on all 12 configurations"

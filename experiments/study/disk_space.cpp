@@ -58,11 +58,11 @@ double reference_bytes(const ReferenceSpec& spec) {
 }
 
 double needed_bytes(const Experiment& experiment, const std::vector<Turn>& left,
-                    const std::vector<ReferenceSpec>& references, SceneStore& scenes) {
+                    const std::vector<ReferenceSpec>& references, const ExperimentInputs& inputs) {
   double sum = 0, largest = 0;
   for (const Turn& turn : left) {
     const Run& run = experiment.runs[turn.place];
-    const Scene& scene = scenes.load(experiment.scene_file(run)).scene;
+    const Scene& scene = inputs.of(turn).scene->scene;
     sum += run_bytes(run.config, scene);
     // Twice: the old one stays until the new one is whole.
     largest = std::max(largest, 2 * checkpoint_bytes(run.config, scene));

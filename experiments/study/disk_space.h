@@ -3,7 +3,7 @@
 
 #include "experiments/config/experiment_config.h"
 #include "experiments/reference/reference.h"
-#include "experiments/runtime/scene_store.h"
+#include "experiments/study/experiment_inputs.h"
 #include "experiments/study/plan.h"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ double reference_bytes(const ReferenceSpec& spec);
 
 // Of what is left to do: runs, the largest checkpoint, and references that are missing.
 double needed_bytes(const Experiment& experiment, const std::vector<Turn>& left,
-                    const std::vector<ReferenceSpec>& references, SceneStore& scenes);
+                    const std::vector<ReferenceSpec>& references, const ExperimentInputs& inputs);
 
 // Free for this user where `folder` is, or the nearest folder above that exists.
 double free_bytes(const std::filesystem::path& folder);

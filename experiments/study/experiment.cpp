@@ -41,7 +41,6 @@ class Work {
        const Stopper& stopper, const GiveUp& give_up, Progress& progress)
       : experiment_(experiment),
         context_(context),
-        scenes_(scenes),
         choices_(choices),
         stopper_(stopper),
         give_up_(give_up),
@@ -124,7 +123,7 @@ class Work {
       missing.push_back(spec);
       progress_.plan(std::max(0, spec.wish.frames - outlook.frames) * spec.work_per_frame());
     }
-    const double needed = needed_bytes(experiment_, left, missing, scenes_);
+    const double needed = needed_bytes(experiment_, left, missing, inputs_);
     const double free = free_bytes(folder_.path());
     check(needed <= free,
           "{}: what is left to do needs up to {} there and {} are free: make room, write elsewhere by --out, "
@@ -141,7 +140,7 @@ class Work {
     for (const Turn& turn : turns_) {
       if (turn.repetition == 0 && !is_done(turn)) firsts.push_back(turn);
     }
-    const Calibration calibration(experiment_, firsts, context_, scenes_, progress_);
+    const Calibration calibration(experiment_, firsts, context_, inputs_, progress_);
     double seconds = 0;
     for (const Turn& turn : firsts) seconds += calibration.seconds(run_of(turn), run_of(turn).config.frames);
     const int rounds = rounds_for(seconds, *budget);
@@ -243,7 +242,6 @@ class Work {
 
   const Experiment& experiment_;
   gpu::Context& context_;
-  SceneStore& scenes_;
   const RunChoices& choices_;
   const Stopper& stopper_;
   const GiveUp& give_up_;
