@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cstdint>
 #include <ctime>
-#include <deque>
 #include <optional>
 #include <random>
 #include <utility>
@@ -91,14 +90,14 @@ class Bench {
   }
 
   // Each takes its turn in every round.
-  void measure(const std::vector<Entry*>& entries) {
+  void measure(std::vector<Entry>& entries) {
     std::vector<std::vector<double>> times(entries.size());
     for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t i = 0; i < entries.size(); ++i) times[i].push_back(time_of(entries[i]->program));
+      for (std::size_t i = 0; i < entries.size(); ++i) times[i].push_back(time_of(entries[i].program));
     }
     for (std::size_t i = 0; i < entries.size(); ++i) {
       std::ranges::sort(times[i]);
-      entries[i]->milliseconds = times[i][kRounds / 2];
+      entries[i].milliseconds = times[i][kRounds / 2];
     }
   }
 
@@ -139,9 +138,9 @@ class Bench {
 };
 
 // The first, unless another one is worth it.
-Entry* best_of(const std::vector<Entry*>& entries) {
-  Entry* fastest = *std::ranges::min_element(entries, {}, [](const Entry* e) { return e->milliseconds; });
-  return fastest->milliseconds < kWorthwhile * entries.front()->milliseconds ? fastest : entries.front();
+Entry& best_of(std::vector<Entry>& entries) {
+  Entry& fastest = *std::ranges::min_element(entries, {}, &Entry::milliseconds);
+  return fastest.milliseconds < kWorthwhile * entries.front().milliseconds ? fastest : entries.front();
 }
 
 }  // namespace
@@ -154,23 +153,23 @@ DriverMeasurement measure_driver(Context& context) {
   for (const Fetch fetch : {Fetch::texture, Fetch::image, Fetch::storage}) {
     if (fetch != usual.fetch && offers(fetch)) ways.push_back({fetch, usual.stack, usual.work_threads});
   }
-  std::deque<Entry> compiled;  // entries stay where they are
-  std::vector<Entry*> entries;
+  std::vector<Entry> entries;
   for (const DriverChoices& way : ways) {
-    if (auto entry = bench.compile(way)) entries.push_back(&compiled.emplace_back(std::move(*entry)));
+    if (auto entry = bench.compile(way)) entries.push_back(std::move(*entry));
   }
   bench.measure(entries);
   DriverMeasurement result;
-  for (const Entry* entry : entries) result.ways.push_back({entry->choices, entry->milliseconds});
-  Entry* best = best_of(entries);
-  DriverChoices other = best->choices;
+  for (const Entry& entry : entries) result.ways.push_back({entry.choices, entry.milliseconds});
+  std::vector<Entry> finalists;
+  finalists.push_back(std::move(best_of(entries)));
+  DriverChoices other = finalists.front().choices;
   other.stack = other.stack == StackPlace::memory ? StackPlace::registers : StackPlace::memory;
   if (auto entry = bench.compile(other)) {
-    bench.measure({best, &*entry});
-    result.ways.push_back({entry->choices, entry->milliseconds});
-    best = best_of({best, &compiled.emplace_back(std::move(*entry))});
+    finalists.push_back(std::move(*entry));
+    bench.measure(finalists);
+    result.ways.push_back({other, finalists.back().milliseconds});
   }
-  result.best = best->choices;
+  result.best = best_of(finalists).choices;
   return result;
 }
 
