@@ -41,6 +41,27 @@ LightSample sample_event_light(Event e, RandomKey key, uint block) {
                       random_bits(key, block + BLOCK_MORE).x);
 }
 
+// Goswami 2020 asks by a closest hit.
+bool reaches_light(LightSample light) {
+#if NEE == NEE_TWO_RAY
+  return closest_hit(light.origin, light.segment).t >= 1.0;
+#else
+  return !is_occluded(light.origin, light.segment);
+#endif
+}
+
+// What a light sample brings, before MIS: zero where it is hidden.
+vec3 light_contribution(Event e, LightSample light, inout Tally tally) {
+  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
+  vec3 contribution = vec3(0.0);
+  if (light.pdf > 0.0 && reflected != vec3(0.0)) {
+    ++tally.rays;
+    if (reaches_light(light)) contribution = reflected / light.pdf;
+  }
+  gather_light(e, light, contribution, tally);
+  return contribution;
+}
+
 #endif
 
 #if NEE == NEE_ONE_RAY
@@ -48,13 +69,7 @@ LightSample sample_event_light(Event e, RandomKey key, uint block) {
 // One light sample, weighted against the path's own sampler, which meets the same lights by its next ray.
 vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
   LightSample light = sample_event_light(e, key, block);
-  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
-  vec3 contribution = vec3(0.0);
-  if (light.pdf > 0.0 && reflected != vec3(0.0)) {
-    ++tally.rays;
-    if (!is_occluded(light.origin, light.segment)) contribution = reflected / light.pdf;
-  }
-  gather_light(e, light, contribution, tally);
+  vec3 contribution = light_contribution(e, light, tally);
   if (contribution == vec3(0.0)) return contribution;
   return contribution * power_heuristic(light.pdf, direction_pdf(e, light.direction));
 }
@@ -93,13 +108,7 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
 // hit. The path's own rays count no emission.
 vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
   LightSample light = sample_event_light(e, key, block);
-  vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
-  vec3 contribution = vec3(0.0);
-  if (light.pdf > 0.0 && reflected != vec3(0.0)) {
-    ++tally.rays;
-    if (closest_hit(light.origin, light.segment).t >= 1.0) contribution = reflected / light.pdf;
-  }
-  gather_light(e, light, contribution, tally);
+  vec3 contribution = light_contribution(e, light, tally);
   vec3 result = bsdf_light(e, light, random_units(key, block + BLOCK_TWO_RAY), tally);
   if (contribution == vec3(0.0)) return result;
   float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);

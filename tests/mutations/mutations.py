@@ -37,7 +37,7 @@ MUTATIONS = [
     Mutation("two_ray forgets the choice of the light", "light/nee.glsl",
              "result = weight * emitted_radiance(other) * heuristic / light.probability;",
              "result = weight * emitted_radiance(other) * heuristic;"),
-    Mutation("no shadows", "light/nee.glsl", "if (!is_occluded(light.origin, light.segment)) contribution",
+    Mutation("no shadows", "light/nee.glsl", "if (reaches_light(light)) contribution",
              "contribution"),
     Mutation("light's density without the distance", "light/lights.glsl", "triangle.edge2.w * t * t / cosine",
              "triangle.edge2.w * t / cosine"),
