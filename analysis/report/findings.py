@@ -99,19 +99,19 @@ SLOPE_CAUSES = {"steep": "steeper than −1: still learning, or rare bright samp
                 "flat": "flatter than −1: biased, heavy-tailed, or near the reference's noise"}
 
 
-def _slope(row: Row, name: str, label: str) -> str:
+def _slope(sweep: Sweep, row: Row, name: str, label: str) -> str:
     mean, low, high = (number.short(text) for text in number.estimate(row, name))
-    return f"{row['configuration']}: {label} {mean} [{low}, {high}], {SLOPE_CAUSES[slope_is_off(row, name)]}"
+    return f"{row['configuration']}: {label} {mean} [{low}, {high}], {SLOPE_CAUSES[slope_is_off(sweep, row, name)]}"
 
 
 def _slopes(sweep: Sweep) -> Iterator[Finding]:
     names = {f"slope_{metric.name}": metric.label for metric in sweep.metrics.values() if metric.is_error}
-    off = [(row, name) for row in sweep.configurations for name in names if slope_is_off(row, name)]
+    off = [(row, name) for row in sweep.configurations for name in names if slope_is_off(sweep, row, name)]
     if off:
         rows = len({row["configuration"] for row, _ in off})
         yield Finding("flagged", f"{_many(rows, 'row')} of {len(sweep.configurations)} {'has' if rows == 1 else 'have'} errors "
                       "that do not fall as 1/spp (log-log slope, 95 % interval).",
-                      [_slope(row, name, names[name]) for row, name in off])
+                      [_slope(sweep, row, name, names[name]) for row, name in off])
 
 
 def _times(sweep: Sweep) -> Iterator[Finding]:

@@ -61,12 +61,14 @@ RATIOS = {
 STRIPS = ("host_ms_median", "relmse", "relmse_x_s")  # drawn on a scale besides
 
 
-def slope_is_off(row: Row, name: str) -> str:
-    """'steep' or 'flat' where the interval of the slope lies beyond -1 by the tolerance; else ''."""
+def slope_is_off(sweep: Sweep, row: Row, name: str) -> str:
+    """'steep' or 'flat' where the interval of the slope lies beyond -1 by the tolerance; else ''. With Sobol' points steep
+    is what is wanted."""
     _, low, high = number.estimate(row, name)
     if not low:
         return ""
-    return ("steep" if float(high) < -1 - tolerances.SLOPE else
+    sobol = sweep.run_manifest(row["configuration"]).get("config", {}).get("random") == "sobol"
+    return ("steep" if float(high) < -1 - tolerances.SLOPE and not sobol else
             "flat" if float(low) > -1 + tolerances.SLOPE else "")
 
 
@@ -75,7 +77,7 @@ def _figure_field(sweep: Sweep, row: Row, name: str) -> Field:
         value = (sweep.manifest.get("config", {}).get("published") or {}).get("ms_per_frame", {}).get(row["configuration"], "")
         return Field(number.short(str(value)), str(value))
     field = figure(sweep.ratios.get(row["configuration"], {}) if name in RATIOS else row, name)
-    off = name.startswith("slope") and slope_is_off(row, name) != ""
+    off = name.startswith("slope") and slope_is_off(sweep, row, name) != ""
     return Field(field.shown, field.value, field.low, field.high, off, _spread(sweep, row, name))
 
 

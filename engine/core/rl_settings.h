@@ -185,28 +185,29 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
           "frame; 0: all frames",
           0, 1e6},
       rl.teach_frames);
-  visit(
-      KnobInfo{
-          "update_growth", "",
-          "the table is updated when the frames since its last update are this share of those before it (at "
-          "most 32 frames); 0: after every frame",
-          0, 1},
-      rl.update_growth);
+  visit(KnobInfo{"update_growth", "",
+                 "with random independent: the table is updated when the frames since its last update are "
+                 "this share of those "
+                 "before it (at most 32 frames); 0: after every frame. With random sobol it is updated after "
+                 "frames 1, 2, 4, 8, "
+                 "...",
+                 0, 1},
+        rl.update_growth);
   visit(KnobInfo{"guided_bounces", "scattering events",
                  "so many first events of a path draw their directions with the table and teach it; the "
                  "others sample "
                  "the BSDF",
                  1, 1024},
         rl.guided_bounces);
-  visit(
-      KnobInfo{
-          "trial_frames", "frames",
-          "so many of the first frames, from the 17th on every other, leave the table out; where they have "
-          "not "
-          "1.15 times the variance of those with it, all later ones do; 0: no trial; none where lights are "
-          "learned",
-          0, 1024},
-      rl.trial_frames);
+  visit(KnobInfo{"trial_frames", "frames",
+                 "length of the first round of a trial of the table (a multiple of 4), which starts after as "
+                 "many frames: every "
+                 "other frame leaves the table out; where error times work is less without it, all later "
+                 "frames do; where that "
+                 "cannot be told, two more rounds follow, each four times as long; 0: no trial; none where "
+                 "lights are learned",
+                 0, 1024},
+        rl.trial_frames);
   visit(
       KnobInfo{
           "roulette", "",

@@ -9,11 +9,16 @@
 
 namespace qtrace {
 
+enum class RandomNumbers { independent, sobol };
 enum class Sampler { bsdf, uniform, rl };
 enum class Nee { none, one_ray, two_ray };
 enum class LightChoice { uniform, power, learned };
 enum class BvhKind { sah, threaded };
 
+template <>
+struct EnumNames<RandomNumbers> {
+  static constexpr std::array<std::string_view, 2> values{"independent", "sobol"};
+};
 template <>
 struct EnumNames<Sampler> {
   static constexpr std::array<std::string_view, 3> values{"bsdf", "uniform", "rl"};
@@ -35,6 +40,9 @@ struct RenderSettings {
   int width = 512;
   int height = 512;
   std::uint32_t seed = 1;
+  RandomNumbers random = RandomNumbers::independent;
+  int stratified_events = 1;
+  int replicates = 1;
   int max_bounces = 5;
   int russian_roulette_start = 3;
   std::array<double, 3> environment{0, 0, 0};
@@ -67,6 +75,26 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
   visit(KnobInfo{"seed", "", "seed of the random numbers: the same seed gives the same bits", 0,
                  std::numeric_limits<std::uint32_t>::max()},
         settings.seed);
+  visit(
+      KnobInfo{
+          .name = "random",
+          .unit = "",
+          .help =
+              "random numbers: independent ones, or Owen-scrambled Sobol' points, which fill the camera's "
+              "and the first events' dimensions evenly",
+          .implied = "\"independent\""},
+      settings.random);
+  visit(KnobInfo{"stratified_events", "scattering events",
+                 "with random sobol: so many first events of a path draw from Sobol' points, the others from "
+                 "independent numbers",
+                 1, 8, "1"},
+        settings.stratified_events);
+  visit(KnobInfo{"replicates", "sequences",
+                 "with random sobol: so many sequences of points, each scrambled on its own, take turns from "
+                 "frame to "
+                 "frame; with two or more their spread is the variance that images are kept with",
+                 1, 64, "1"},
+        settings.replicates);
   visit(KnobInfo{"max_bounces", "scattering events",
                  "longest path: 0 shows emission only, 1 adds direct light", 0, 1024},
         settings.max_bounces);

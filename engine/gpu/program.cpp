@@ -77,6 +77,13 @@ Program& Program::operator=(Program&& other) noexcept {
 void Program::set_frame(std::uint32_t frame) { glProgramUniform1ui(id_, LOCATION_FRAME, frame); }
 void Program::set_teaches(bool teaches) { glProgramUniform1ui(id_, LOCATION_TEACHES, teaches ? 1U : 0U); }
 
+void Program::set_weight(float weight) { glProgramUniform1f(id_, LOCATION_WEIGHT, weight); }
+
+void Program::set_point(std::uint32_t sequence, std::span<const glm::uvec4> words) {
+  glProgramUniform1ui(id_, LOCATION_SEQUENCE, sequence);
+  glProgramUniform4uiv(id_, LOCATION_POINTS, static_cast<GLsizei>(words.size()), &words.front().x);
+}
+
 void Program::dispatch(std::uint32_t x, std::uint32_t y) const {
   glUseProgram(id_);
   glMemoryBarrier(kAllWritesSeen);

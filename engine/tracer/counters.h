@@ -20,7 +20,8 @@ struct Firefly {
   double radiance = 0;
 };
 
-// What went beyond the limits in all frames so far; sums over pixels and frames of the mean over channels.
+// What went beyond the limits in all frames so far; sums over pixels and frames of the mean over channels (as
+// if all frames had the weight 1).
 struct Outliers {
   double firefly_sum = 0;
   double clamped_away = 0;         // what clamp_radiance removed

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace qtrace {
@@ -29,10 +30,22 @@ void check_loops_of(const gpu::Counters& block) {
       block.cut_pixel.x, block.cut_pixel.y);
 }
 
-// Variance of the mean of n samples from their sum and sum of squares.
-double variance_of_mean(double sum, double squares, double n) {
-  if (n < 2) return 0;
-  return std::max(0.0, (squares - sum * sum / n) / (n - 1) / n);
+// Of the mean of samples of one variance, from their weighed sums.
+double variance_of_mean(double sum, double squares, double weight, double weight_squares) {
+  const double per_sample = weight_squares / weight;  // 1 where all weights are
+  if (weight <= per_sample) return 0;                 // one sample
+  return std::max(0.0, (squares - sum * sum / weight) / (weight - per_sample) * per_sample / weight);
+}
+
+// Named so in saved states, where there are two.
+std::vector<gpu::Buffer> make_sums(std::size_t bytes, int sequences) {
+  std::vector<gpu::Buffer> sums;
+  for (int i = 0; i < sequences; ++i) {
+    const std::string name = sequences > 2 ? fmt::format("pixel sums of sequence {}", i)
+                                           : fmt::format("pixel sums of {} frames", i == 0 ? "odd" : "even");
+    sums.emplace_back(name, bytes, gpu::also_fetched(gpu::Texels::uint4));
+  }
+  return sums;
 }
 
 gpu::PixelSum add(const gpu::PixelSum& a, const gpu::PixelSum& b) {
@@ -44,29 +57,46 @@ gpu::PixelSum add(const gpu::PixelSum& a, const gpu::PixelSum& b) {
           a.b_squared + b.b_squared};
 }
 
-RadianceImage image_of(const std::vector<gpu::PixelSum>& sums, int width, int height, std::uint32_t frames) {
-  RadianceImage image{width, height, frames, {}, {}};
-  const double n = frames;
-  for (const gpu::PixelSum& s : sums) {
-    image.mean.push_back(frames > 0 ? glm::dvec3(s.r, s.g, s.b) / n : glm::dvec3(0));
-    image.variance.emplace_back(variance_of_mean(s.r, s.r_squared, n), variance_of_mean(s.g, s.g_squared, n),
-                                variance_of_mean(s.b, s.b_squared, n));
+// The sums of sequences that are independent of one another, of one pixel.
+struct SequenceSums {
+  glm::dvec3 sum{0};       // over sequences, of their sums
+  glm::dvec3 squares{0};   // of the squares of these
+  glm::dvec3 products{0};  // of these times their weights
+  double weight = 0;
+  double weight_squares = 0;
+  double sequences = 0;
+
+  void add(const glm::dvec3& of_sequence, double weight_of_sequence) {
+    sum += of_sequence;
+    squares += of_sequence * of_sequence;
+    products += weight_of_sequence * of_sequence;
+    weight += weight_of_sequence;
+    weight_squares += weight_of_sequence * weight_of_sequence;
+    ++sequences;
   }
-  return image;
-}
+  glm::dvec3 mean() const { return weight > 0 ? sum / weight : glm::dvec3(0); }
+  // Of the mean: the spread of the sums about what their weights let expect.
+  glm::dvec3 variance() const {
+    if (sequences < 2) return glm::dvec3(0);
+    const glm::dvec3 m = mean();
+    const glm::dvec3 spread = squares - 2.0 * m * products + m * m * weight_squares;
+    return glm::max(spread, 0.0) * (sequences / (sequences - 1) / (weight * weight));
+  }
+};
 
 }  // namespace
 
-Film::Film(int width, int height, gpu::ProgramCache& programs)
+Film::Film(int width, int height, int replicates, gpu::ProgramCache& programs)
     : width_(width),
       height_(height),
+      replicates_(replicates),
       samples_("pixel samples",
                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSample),
                gpu::also_fetched(gpu::Texels::uint4)),
-      odd_sums_("pixel sums of odd frames",
-                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum),
-                gpu::also_fetched(gpu::Texels::uint4)),
-      even_sums_("pixel sums of even frames", odd_sums_.bytes(), gpu::also_fetched(gpu::Texels::uint4)),
+      sums_(make_sums(
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelSum),
+          std::max(replicates, 2))),
+      weights_(sums_.size()),
       outliers_(
           "pixel outliers",
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
@@ -87,19 +117,33 @@ void Film::start_frame() {
   counters_.clear(offsetof(gpu::Counters, words), gpu::COUNTER_PER_FRAME * kCounterBytes);
 }
 
-void Film::accumulate(std::uint32_t frame) {
-  const gpu::Buffer& sums = frame % 2 == 1 ? odd_sums_ : even_sums_;
+void Film::accumulate(std::uint32_t frame, float weight) {
+  count(frame, weight);
+  const gpu::Buffer& sums = sums_[place(frame)];
   sums.bind_storage(gpu::BINDING_SUMS);
   sums.bind_fetched(gpu::UNIT_SUMS);
   accumulate_->set_frame(frame);
+  accumulate_->set_weight(weight);
   const auto pixels = static_cast<std::uint32_t>(samples_.bytes() / sizeof(gpu::PixelSample));
   accumulate_->dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
 }
 
+void Film::count(std::uint32_t frame, float weight) {
+  Weights& w = weights_[place(frame)];
+  ++w.frames;
+  w.sum += weight;
+  w.squares += double{weight} * weight;
+}
+
+void Film::count_all(std::uint32_t last, const std::function<float(std::uint32_t)>& weight) {
+  std::ranges::fill(weights_, Weights{});
+  for (std::uint32_t frame = 1; frame <= last; ++frame) count(frame, weight(frame));
+}
+
 void Film::reset() {
   samples_.clear();
-  odd_sums_.clear();
-  even_sums_.clear();
+  for (gpu::Buffer& sums : sums_) sums.clear();
+  std::ranges::fill(weights_, Weights{});
   counters_.clear();
   const auto pixels = outliers_.bytes() / sizeof(gpu::PixelOutliers);
   set_firefly_thresholds(std::vector<float>(pixels, std::numeric_limits<float>::infinity()));
@@ -157,23 +201,91 @@ Outliers Film::outliers() const {
     }
     ++pixel;
   }
+  const Weights weights = all_weights();
+  if (weights.sum > 0) {
+    result.firefly_sum *= weights.frames / weights.sum;
+    result.clamped_away *= weights.frames / weights.sum;
+  }
   std::ranges::sort(result.brightest, {}, [](const Firefly& f) { return std::tuple(-f.radiance, f.y, f.x); });
   return result;
 }
 
-RadianceImage Film::radiance(std::uint32_t frames) const {
-  check_loops();
-  auto sums = odd_sums_.read_all<gpu::PixelSum>();
-  std::ranges::transform(sums, even_sums_.read_all<gpu::PixelSum>(), sums.begin(), add);
-  return image_of(sums, width_, height_, frames);
+Film::Weights Film::joined(const Weights& a, const Weights& b) {
+  return {a.frames + b.frames, a.sum + b.sum, a.squares + b.squares};
 }
 
-std::array<RadianceImage, 2> Film::halves(std::uint32_t frames) const {
-  check_loops();
-  return {image_of(odd_sums_.read_all<gpu::PixelSum>(), width_, height_, (frames + 1) / 2),
-          image_of(even_sums_.read_all<gpu::PixelSum>(), width_, height_, frames / 2)};
+Film::Weights Film::all_weights() const {
+  return std::accumulate(weights_.begin(), weights_.end(), Weights{}, joined);
 }
 
-std::vector<gpu::Buffer*> Film::gathered() { return {&odd_sums_, &even_sums_, &outliers_, &counters_}; }
+RadianceImage Film::image_of(const std::vector<gpu::PixelSum>& sums, const Weights& w) const {
+  RadianceImage image{width_, height_, w.frames, {}, {}};
+  for (const gpu::PixelSum& s : sums) {
+    image.mean.push_back(w.frames > 0 ? glm::dvec3(s.r, s.g, s.b) / w.sum : glm::dvec3(0));
+    image.variance.emplace_back(variance_of_mean(s.r, s.r_squared, w.sum, w.squares),
+                                variance_of_mean(s.g, s.g_squared, w.sum, w.squares),
+                                variance_of_mean(s.b, s.b_squared, w.sum, w.squares));
+  }
+  return image;
+}
+
+RadianceImage Film::radiance() const {
+  check_loops();
+  return replicates_ > 1 ? over_replicates() : over_samples();
+}
+
+RadianceImage Film::over_samples() const {
+  auto sums = sums_[0].read_all<gpu::PixelSum>();
+  std::ranges::transform(sums, sums_[1].read_all<gpu::PixelSum>(), sums.begin(), add);
+  return image_of(sums, all_weights());
+}
+
+RadianceImage Film::over_replicates() const {
+  std::vector<SequenceSums> pixels(samples_.bytes() / sizeof(gpu::PixelSample));
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (weights_[i].frames == 0) continue;
+    auto pixel = pixels.begin();
+    for (const gpu::PixelSum& s : sums_[i].read_all<gpu::PixelSum>())
+      (pixel++)->add({s.r, s.g, s.b}, weights_[i].sum);
+  }
+  RadianceImage image{width_, height_, all_weights().frames, {}, {}};
+  for (const SequenceSums& sums : pixels) {
+    image.mean.push_back(sums.mean());
+    image.variance.push_back(sums.variance());
+  }
+  return image;
+}
+
+std::pair<std::vector<gpu::PixelSum>, Film::Weights> Film::half(std::size_t half) const {
+  auto sums = sums_[half].read_all<gpu::PixelSum>();
+  Weights weights = weights_[half];
+  for (std::size_t i = half + 2; i < sums_.size(); i += 2) {
+    std::ranges::transform(sums, sums_[i].read_all<gpu::PixelSum>(), sums.begin(), add);
+    weights = joined(weights, weights_[i]);
+  }
+  return {std::move(sums), weights};
+}
+
+std::array<RadianceImage, 2> Film::halves() const {
+  check_loops();
+  const auto image = [this](const auto& half) { return image_of(half.first, half.second); };
+  return {image(half(0)), image(half(1))};
+}
+
+std::array<std::vector<glm::dvec3>, 2> Film::half_sums() const {
+  check_loops();
+  std::array<std::vector<glm::dvec3>, 2> halves;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const gpu::PixelSum& s : half(i).first) halves[i].emplace_back(s.r, s.g, s.b);
+  }
+  return halves;
+}
+
+std::vector<gpu::Buffer*> Film::gathered() {
+  std::vector<gpu::Buffer*> all;
+  for (gpu::Buffer& sums : sums_) all.push_back(&sums);
+  all.insert(all.end(), {&outliers_, &counters_});
+  return all;
+}
 
 }  // namespace qtrace

@@ -6,7 +6,6 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/cell_buffers.h"
-#include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
 
@@ -67,7 +66,7 @@ std::uint64_t most_targets_in_a_frame(const RenderSettings& settings) {
 }
 
 void check_targets(const RenderSettings& settings) {
-  check(frames_per_update(settings) > 0,
+  check(most_taught_frames(settings) > 0,
         "{}x{} pixels with max_bounces {} may teach one entry of the table {} times in a frame, and up to {} "
         "are "
         "counted; lower width, height or max_bounces",
@@ -90,9 +89,8 @@ static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) &&
               sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSample) &&
               sizeof(gpu::FirstHit) >= sizeof(gpu::PixelOutliers));
 
-std::uint32_t frames_per_update(const RenderSettings& settings) {
-  const std::uint64_t frames = (kMostTargets - 1) / most_targets_in_a_frame(settings);
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(frames, kMostFramesPerUpdate));
+std::uint32_t most_taught_frames(const RenderSettings& settings) {
+  return static_cast<std::uint32_t>((kMostTargets - 1) / most_targets_in_a_frame(settings));
 }
 
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {

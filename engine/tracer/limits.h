@@ -9,9 +9,9 @@
 
 namespace qtrace {
 
-// So many frames may pass between two updates of the table before one of its sums could be full, were all
-// paths to teach the same entry at every event; at most kMostFramesPerUpdate.
-std::uint32_t frames_per_update(const RenderSettings& settings);
+// So many frames may teach the table between two updates before one of its sums could be full, were all paths
+// to teach the same entry at every event.
+std::uint32_t most_taught_frames(const RenderSettings& settings);
 
 // Throws Error where the device cannot hold the image or the table, or could cut the loops of a path short.
 //

@@ -37,6 +37,9 @@ constexpr bool agree(std::initializer_list<Numbered> enumerators) {
 template <class Choice>
 constexpr bool kIsNumbered = false;
 template <>
+constexpr bool kIsNumbered<RandomNumbers> = agree<RandomNumbers>(
+    {NUMBERED(RandomNumbers, independent, RANDOM_INDEPENDENT), NUMBERED(RandomNumbers, sobol, RANDOM_SOBOL)});
+template <>
 constexpr bool kIsNumbered<Sampler> = agree<Sampler>({NUMBERED(Sampler, bsdf, SAMPLER_BSDF),
                                                       NUMBERED(Sampler, uniform, SAMPLER_UNIFORM),
                                                       NUMBERED(Sampler, rl, SAMPLER_RL)});
@@ -121,6 +124,7 @@ void define_table(gpu::Defines& defines, const RenderSettings& settings, const g
 
 RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatures& features) {
   if (features.lights == 0) settings.nee = Nee::none;
+  if (settings.random == RandomNumbers::independent) settings.replicates = 1;
   return settings;
 }
 
@@ -139,6 +143,9 @@ gpu::Defines with_cells(gpu::Defines defines, const CellBuffers& cells) {
 gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatures& features) {
   const RenderSettings settings = effective_settings(wanted, features);
   gpu::Defines defines;
+  defines["RANDOM"] = choice(settings.random);
+  if (settings.random == RandomNumbers::sobol)
+    defines["STRATIFIED_EVENTS"] = std::to_string(settings.stratified_events);
   defines["SAMPLER"] = choice(settings.sampler);
   defines["NEE"] = choice(settings.nee);
   defines["BVH"] = choice(settings.bvh);

@@ -1,9 +1,10 @@
-// Whether a run's directions go on being drawn with the table: a trial early in the run, by the variance of
-// its frames.
+// Whether a run's directions go on being drawn with the table: a trial early in the run, by error times work.
 #pragma once
 
-#include "engine/core/image.h"
 #include "engine/core/settings.h"
+#include "engine/tracer/counters.h"
+
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
@@ -14,50 +15,72 @@
 
 namespace qtrace {
 
-// The table is given up where frames without it have less than this times the variance of frames with it. A
-// frame with the table costs 1.2 to 1.7 of one without, but it is tried early and is still learning.
-inline constexpr double kLeastGain = 1.15;
+// Sums over the odd and over the even frames so far, pixel by pixel.
+using HalfSums = std::array<std::vector<glm::dvec3>, 2>;
 
-// All frames count alike in the image, those of the trial as well, and the trial decides about later frames
-// only: the mean stays without bias.
+// Up to three rounds, until one can tell. In a round, odd frames leave the table out and even ones use it.
+// Its first and its second half are replicates with random numbers of their own, so that the squared
+// difference of the two means of a pixel, over twice the squared radiance around it, estimates the relative
+// error of either kind of frames: as relMSE does, and whatever the random numbers are. All frames count in
+// the image, and the trial decides about later frames only, which draw from new sequences: the mean stays
+// without bias.
 class TableTrial {
  public:
   // None where rl.trial_frames is 0, where directions are not learned, or where lights are, too: these need
   // the table anyway.
   explicit TableTrial(const RenderSettings& settings);
 
-  bool is_wanted() const { return trial_frames_ > 0; }
-  // Whether frame `frame` (from 1) leaves the table out: so many odd frames after the first 16, and all
-  // frames once it was given up.
+  bool is_wanted() const { return first_round_ > 0; }
+  // Whether frame `frame` (from 1) belongs to a round that takes place.
+  bool is_tried(std::uint32_t frame) const;
+  // Whether it leaves the table out: in a round, or after the table was given up.
   bool is_without(std::uint32_t frame) const;
+  // The last frame up to `frame` after which a replicate of the trial begins or ends; 0 where there is none.
+  std::uint32_t last_boundary(std::uint32_t frame) const;
 
-  // Before the trial's first frame, and after its last one, look() is to see the means of the odd and of the
-  // even frames so far.
+  // What the trial is to see after some frames.
+  struct Look {
+    std::uint32_t frame = 0;
+    double weight = 1;  // of each frame of the round in the sums
+    int width = 0;
+    HalfSums sums;
+    FrameCounters counters;  // of the frame
+  };
   bool looks_after(std::uint32_t frame) const;
-  void look(const std::array<RadianceImage, 2>& halves);
+  void look(const Look& look);
 
-  // Variance without the table over that with it, summed over pixels and channels, relative to the squared
-  // radiance around (with the constant that relMSE has), without the 0.1 % of pixels with the most. Infinite
-  // where the frames without it missed light that the others found, so that their variance says nothing.
-  // Nothing before it is known.
-  std::optional<double> gain() const { return gain_; }
-  bool gave_up() const { return gain_ && *gain_ < kLeastGain; }
+  // What the last round found; nothing before the first has ended.
+  struct Finding {
+    std::uint32_t frame = 0;  // its last one
+    double gain = 1;          // error without the table over that with it, for the same number of frames
+    double gain_error = 0;    // its standard error
+    double found = 1;  // of the radiance that frames with the table found, what those without it did: far
+                       // below 1 they miss light, and their error says nothing
+    double work = 1;  // of a frame with the table over that of one without it
+  };
+  const std::optional<Finding>& finding() const { return finding_; }
+  bool gave_up() const { return verdict_ == Verdict::give_up; }
+  bool is_decided() const { return verdict_ != Verdict::open; }
 
   // To go on with later.
   std::vector<std::byte> saved() const;
   void restore(std::span<const std::byte> saved);  // throws Error where it is none
 
  private:
-  // Over frames of one kind, of every pixel.
-  struct Sums {
-    std::vector<glm::dvec3> values, squares;
+  enum class Verdict : std::uint32_t { open, keep, give_up };
+  struct Round {
+    std::uint32_t begin, middle, end;  // frames after which its replicates begin and end
   };
-  static Sums sums_of(const RadianceImage& half);
-  double gain_since(const std::array<RadianceImage, 2>& halves) const;
+  Round round(int number) const;
+  std::optional<Round> round_of(std::uint32_t frame) const;  // that takes place
+  bool takes_place(const Round& round) const;
+  void conclude(const Round& round, int number, const Look& last);
 
-  std::uint32_t trial_frames_;
-  std::array<Sums, 2> before_;  // of the odd and of the even frames before the trial, during it
-  std::optional<double> gain_;
+  std::uint32_t first_round_;  // frames of the first round; 0: no trial
+  Verdict verdict_ = Verdict::open;
+  std::optional<Finding> finding_;
+  std::vector<HalfSums> sums_;  // before the round that goes on, and between its halves
+  double work_without_ = 0;     // of a frame of the round
 };
 
 }  // namespace qtrace

@@ -8,7 +8,9 @@
 #include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
+#include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/shader_variant.h"
+#include "engine/tracer/stratified_points.h"
 #include "engine/tracer/table_trial.h"
 #include "engine/tracer/tiles.h"
 
@@ -39,8 +41,8 @@ struct Tracer::State {
       : context(gpu_context),
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
-        film(wanted.width, wanted.height, context.programs()),
-        schedule(settings.rl, frames_per_update(settings)),
+        film(settings.width, settings.height, settings.replicates, context.programs()),
+        schedule(settings, has_table(settings) ? most_taught_frames(settings) : 1),
         trial(settings),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
     gpu::Defines defines = shader_defines(settings, buffers.features());
@@ -102,6 +104,17 @@ struct Tracer::State {
     context.finish();
   }
 
+  void place_points(gpu::Program& program) const {
+    if (settings.random != RandomNumbers::sobol) return;
+    const SequencePlace place = sequence_place(frames, settings, schedule, trial);
+    program.set_point(place.sequence, stratified_points(settings.seed, place.sequence, place.index,
+                                                        settings.stratified_events));
+  }
+
+  void look() {
+    trial.look({frames, frame_weight(frames, settings), settings.width, film.half_sums(), film.counters()});
+  }
+
   void keep_busy() {
     const auto [x, y] = groups();
     const auto start = std::chrono::steady_clock::now();
@@ -151,11 +164,12 @@ void Tracer::render_frame() {
   gpu::Program& trace = s.trial.is_without(s.frames) ? *s.trace_without : *s.trace;
   trace.set_frame(s.frames);
   trace.set_teaches(s.learning && s.schedule.teaches(s.frames));
+  s.place_points(trace);
   const auto [x, y] = s.groups();
   trace.dispatch(x, y);
-  s.film.accumulate(s.frames);
+  s.film.accumulate(s.frames, frame_weight(s.frames, s.settings));
   if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
-  if (s.trial.looks_after(s.frames)) s.trial.look(s.film.halves(s.frames));
+  if (s.trial.looks_after(s.frames)) s.look();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
@@ -166,9 +180,9 @@ std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_-
 
 Outliers Tracer::outliers() const { return state_->film.outliers(); }
 
-RadianceImage Tracer::radiance() const { return state_->film.radiance(state_->frames); }
+RadianceImage Tracer::radiance() const { return state_->film.radiance(); }
 
-std::array<RadianceImage, 2> Tracer::halves() const { return state_->film.halves(state_->frames); }
+std::array<RadianceImage, 2> Tracer::halves() const { return state_->film.halves(); }
 
 TracerState Tracer::state() const {
   state_->film.check_loops();
@@ -196,6 +210,8 @@ void Tracer::restore(const TracerState& saved) {
     buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
   }
   state_->frames = saved.frames;
+  state_->film.count_all(saved.frames,
+                         [&](std::uint32_t frame) { return frame_weight(frame, state_->settings); });
 }
 
 FirstHitImage Tracer::first_hit() const {
@@ -226,9 +242,7 @@ QTable* Tracer::table() {
   return state_->table ? &*state_->table : nullptr;
 }
 
-std::optional<double> Tracer::trial_gain() const { return state_->trial.gain(); }
-
-bool Tracer::gave_table_up() const { return state_->trial.gave_up(); }
+const TableTrial& Tracer::trial() const { return state_->trial; }
 
 void Tracer::set_learning(bool learning) { state_->learning = learning; }
 

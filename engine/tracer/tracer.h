@@ -7,6 +7,7 @@
 #include "engine/scene/scene.h"
 #include "engine/tracer/counters.h"
 #include "engine/tracer/qtable.h"
+#include "engine/tracer/table_trial.h"
 #include "engine/tracer/tracer_state.h"
 
 #include <array>
@@ -34,7 +35,7 @@ class Tracer {
   void set_firefly_thresholds(std::span<const float> thresholds);
 
   // Enqueues one sample per pixel and, where there is a table, one update of it. Does not wait, but
-  // at both ends of a trial of the table.
+  // where a trial of the table looks at its frames.
   void render_frame();
   std::uint32_t frames() const;
 
@@ -57,10 +58,7 @@ class Tracer {
   QTable* table();                   // null unless directions or lights are learned; for studies of the table
   void set_learning(bool learning);  // false: the table stays as it is
 
-  // What the trial of the table found (table_trial.h): variance without it over that with it. Nothing where
-  // there was no trial, or none yet.
-  std::optional<double> trial_gain() const;
-  bool gave_table_up() const;  // frames after the trial leave it out
+  const TableTrial& trial() const;  // of the table: what it has found so far
 
   std::uint64_t cells() const;         // states of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers

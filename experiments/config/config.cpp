@@ -82,6 +82,41 @@ Json KnobType<SnapshotPlan>::write(const SnapshotPlan& plan) {
   return frames;
 }
 
+namespace {
+
+// Replicates whose spread is a variance that a verdict can rest on.
+constexpr int kFewestReplicates = 8;
+
+void check_random_numbers(const RenderSettings& render, const Expectation& expect) {
+  check(render.replicates == 1 || render.replicates % 2 == 0,
+        "key 'replicates' is {} but must be 1 or even: odd and even frames belong to different ones",
+        render.replicates);
+  check(render.rl.trial_frames % 4 == 0,
+        "key 'rl.trial_frames' is {} but must be a multiple of 4: a round of the trial has two halves, and "
+        "each half "
+        "frames with and without the table",
+        render.rl.trial_frames);
+  check(expect.against == Against::nothing || render.random == RandomNumbers::independent ||
+            render.replicates >= kFewestReplicates,
+        "key 'expect' judges a run by the variance of its samples, and with 'random' sobol only replicates "
+        "have one: "
+        "'replicates' is {} and must be {} at least",
+        render.replicates, kFewestReplicates);
+}
+
+}  // namespace
+
+std::string variance_note(const RenderSettings& settings) {
+  if (settings.random == RandomNumbers::independent) return "of the mean, from the samples of the pixel";
+  if (settings.replicates > 1)
+    return fmt::format(
+        "of the mean, from the spread of {} replicates, each a sequence of Sobol' points of its own",
+        settings.replicates);
+  return "as if samples were independent; Sobol' points are not, so it gives no interval: as a rule it is "
+         "far too large, "
+         "and only other seeds show the error";
+}
+
 void check_run_config(const RunConfig& config) {
   check_name(config.name);
   check(!config.scene.empty(), "key 'scene' is missing; it names a .gltf or .glb file");
@@ -97,6 +132,7 @@ void check_run_config(const RunConfig& config) {
       "key 'reference.frames' is {} but must be at most 'reference.max_frames', which is {}: it is the least "
       "length of a reference with a 'relative_error'",
       config.reference.frames, config.reference.max_frames);
+  check_random_numbers(config.render, config.expect);
   check_snapshots(config);
 }
 

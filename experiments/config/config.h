@@ -41,6 +41,7 @@ struct KnobType<SnapshotPlan> {
 // It stays fixed, as a choice by a pilot would make the hash depend on a rendering; nee and lights change it.
 struct ReferenceSettings {
   int frames = 1024;
+  RandomNumbers random = RandomNumbers::independent;
   double relative_error = 0;
   int max_frames = 16384;
   std::uint32_t seed = 9001;
@@ -65,6 +66,12 @@ void visit_knobs(Visitor& visit, ReferenceSettings& reference) {
   visit(
       KnobInfo{"max_frames", "samples per pixel", "where 'relative_error' gives up, with a warning", 2, 1e7},
       reference.max_frames);
+  visit(KnobInfo{.name = "random",
+                 .unit = "",
+                 .help = "its random numbers; with sobol it is made of 16 sequences of points, whose spread "
+                         "is its noise",
+                 .implied = "\"independent\""},
+        reference.random);
   visit(KnobInfo{"seed", "", "its seed; must differ from the seeds of the runs", 0,
                  std::numeric_limits<std::uint32_t>::max()},
         reference.seed);
@@ -152,6 +159,9 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
 
 // The keys that change neither a pixel nor what is measured: results that differ in them alone are the same.
 inline constexpr std::array<std::string_view, 2> kKeysOfExecution{"checkpoint_s", "frame_timeout_s"};
+
+// What the variance beside an image's mean is: files and manifests say it.
+std::string variance_note(const RenderSettings& settings);
 
 // Throws Error that names the key where values that are each allowed do not fit together.
 void check_run_config(const RunConfig& config);

@@ -9,6 +9,8 @@
 
 namespace qtrace::experiments {
 
+inline constexpr const char* kVarianceNote = "varianceNote";  // metadata: what the variance rests on
+
 // R, G, B: the mean; variance.R, .G, .B: its variance; metadata "spp".
 ExrImage to_exr(const RadianceImage& image, ExrMetadata metadata);
 

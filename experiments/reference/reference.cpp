@@ -6,6 +6,7 @@
 #include "experiments/images/exr_images.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace qtrace::experiments {
@@ -16,6 +17,20 @@ namespace fs = std::filesystem;
 // Frames from look to look at the noise: a look costs about as much as reading the film back, a small part of
 // so many frames, and no more than these are rendered in vain.
 constexpr int kFramesPerLook = 16;
+// Sequences of a reference with Sobol' points.
+constexpr int kReferenceReplicates = 16;
+
+int round_up(int frames, int step) { return (frames + step - 1) / step * step; }
+
+// Sobol' points are worth looking at when their number is a power of two, or half as many again.
+int next_net(int frame, int replicates) {
+  int points = 1;
+  while (points * replicates < frame)
+    points = std::has_single_bit(static_cast<unsigned>(points)) && points > 1
+                 ? points + points / 2
+                 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(points) + 1));
+  return points * replicates;
+}
 
 bool all_finite(const std::vector<glm::dvec3>& pixels) {
   for (const glm::dvec3& p : pixels) {
@@ -45,7 +60,7 @@ bool ReferenceWish::settled(std::uint64_t samples, const ReferenceNoise& noise) 
 int ReferenceWish::next_look(int frame) const {
   if (frame <= frames) return frames;
   if (relative_error == 0) return frame;
-  const int look = (frame + kFramesPerLook - 1) / kFramesPerLook * kFramesPerLook;
+  const int look = replicates > 1 ? next_net(frame, replicates) : round_up(frame, kFramesPerLook);
   return std::max(frame, std::min(look, max_frames));
 }
 
@@ -72,9 +87,13 @@ ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_h
   spec.settings.environment = config.render.environment;
   spec.settings.seed = config.reference.seed;
   spec.settings.sampler = Sampler::bsdf;
+  spec.settings.random = config.reference.random;
+  if (spec.settings.random == RandomNumbers::sobol) spec.settings.replicates = kReferenceReplicates;
   spec.settings.nee = config.reference.nee;
   spec.settings.lights = config.reference.lights;
-  spec.wish = {config.reference.frames, config.reference.relative_error, config.reference.max_frames};
+  const int replicates = spec.settings.replicates;
+  spec.wish = {round_up(config.reference.frames, replicates), config.reference.relative_error,
+               round_up(config.reference.max_frames, replicates), replicates};
   spec.definition = write_knobs(spec.settings, Written::identity);
   if (!has_table(spec.settings)) spec.definition.erase("rl");  // plays no part
   spec.definition["scene"] = scene_hash;

@@ -20,6 +20,7 @@ struct ReferenceWish {
   int frames = 0;             // at least
   double relative_error = 0;  // of the reference itself, at most; 0: any
   int max_frames = 0;         // where relative_error ends all the same
+  int replicates = 1;         // that take turns: it has whole rounds of them
 
   bool met(std::uint64_t samples, const ReferenceNoise& noise) const;
   // Met, or as long as it may become.

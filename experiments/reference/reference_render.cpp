@@ -84,6 +84,7 @@ class Rendering {
     write_state(state_file(file_), state());
     ExrImage exr = to_exr(tracer_.radiance(), {{kReferenceHash, spec_.hash},
                                                {kReferenceNonFinite, std::to_string(non_finite_)},
+                                               {kVarianceNote, variance_note(spec_.settings)},
                                                {"seed", std::to_string(spec_.settings.seed)},
                                                {"software", software()}});
     add_halves(exr, tracer_.halves());

@@ -4,6 +4,7 @@
 #include "engine/tracer/atrous.h"
 #include "engine/tracer/tracer.h"
 #include "experiments/files/atomic_file.h"
+#include "experiments/images/exr_images.h"
 #include "experiments/measure/flip.h"
 #include "experiments/records/figures.h"
 #include "experiments/records/fireflies.h"
@@ -55,6 +56,7 @@ Json first_manifest(const RunJob& job, const RunRecord& record) {
                 {"device", device_json(job.context.device())},
                 {"program", program_json()},
                 {"metrics", figures_json()},
+                {"variance", variance_note(config.render)},
                 {"timing", timing_note()},
                 {"started", record.started},
                 {"warnings", Json::array()}};
@@ -161,6 +163,7 @@ void Execution::close(RunStatus status, const std::string& reason) {
 ExrMetadata Execution::metadata() const {
   return {{"seed", std::to_string(config().render.seed)},
           {"configHash", record_.config_hash},
+          {kVarianceNote, variance_note(config().render)},
           {"software", software()}};
 }
 
@@ -224,15 +227,20 @@ void Execution::save_checkpoint(const Tracer& tracer) {
 }
 
 void Execution::note_trial(const Tracer& tracer, Progress& progress) {
-  const std::optional<double> gain = tracer.trial_gain();
-  if (!gain) return;
-  manifest_["table_trial"] = {{"gain", *gain}, {"given_up", tracer.gave_table_up()}};  // infinity is null
-  if (!tracer.gave_table_up()) return;
-  warn(fmt::format("directions went without the table after its trial: frames without it had {:.3g} times "
-                   "the variance "
-                   "of those with it, which does not pay (rl.trial_frames)",
-                   *gain),
-       progress);
+  const TableTrial& trial = tracer.trial();
+  const auto& found = trial.finding();
+  if (!found) return;
+  manifest_["table_trial"] = {{"gain", found->gain},        {"gain_error", found->gain_error},
+                              {"found", found->found},      {"work", found->work},
+                              {"frame", found->frame},      {"decided", trial.is_decided()},
+                              {"given_up", trial.gave_up()}};
+  if (!trial.gave_up()) return;
+  warn(
+      fmt::format(
+          "after frame {} directions went without the table: frames without it had {:.3g} times the error of "
+          "those with it, which take {:.3g} times the work (rl.trial_frames)",
+          found->frame, found->gain, found->work),
+      progress);
 }
 
 void Execution::finish(Tracer& tracer, const Reference& reference, Progress& progress) {

@@ -6,6 +6,7 @@
 #include "light/lights.glsl"
 #include "material/bsdf.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
 #include "shared/math.glsl"
@@ -36,9 +37,8 @@ void gather_light(Event e, LightSample light, vec3 contribution, inout Tally tal
 
 #if NEE != NEE_NONE
 
-LightSample sample_event_light(Event e, RandomKey key, uint block) {
-  return sample_light(e.surface, cell_of(e), random_bits(key, block + BLOCK_LIGHT),
-                      random_bits(key, block + BLOCK_MORE).x);
+LightSample sample_event_light(Event e, EventBits bits) {
+  return sample_light(e.surface, cell_of(e), bits.light, bits.more.x);
 }
 
 // Goswami 2020 asks by a closest hit.
@@ -67,8 +67,8 @@ vec3 light_contribution(Event e, LightSample light, inout Tally tally) {
 #if NEE == NEE_ONE_RAY
 
 // One light sample, weighted against the path's own sampler, which meets the same lights by its next ray.
-vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
-  LightSample light = sample_event_light(e, key, block);
+vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
+  LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
   if (contribution == vec3(0.0)) return contribution;
   return contribution * power_heuristic(light.pdf, direction_pdf(e, light.direction));
@@ -106,10 +106,10 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
 
 // That of Goswami 2020: a light sample and a BSDF sample towards the same light, power heuristic, both tested by a closest
 // hit. The path's own rays count no emission.
-vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
-  LightSample light = sample_event_light(e, key, block);
+vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
+  LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
-  vec3 result = bsdf_light(e, light, random_units(key, block + BLOCK_TWO_RAY), tally);
+  vec3 result = bsdf_light(e, light, to_units(bits.two_ray), tally);
   if (contribution == vec3(0.0)) return result;
   float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);
   return result + contribution * power_heuristic(light.pdf / light.probability, other);
@@ -121,7 +121,7 @@ float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int ce
 
 #else
 
-vec3 direct_light(Event e, RandomKey key, uint block, inout Tally tally) {
+vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   return vec3(0.0);
 }
 

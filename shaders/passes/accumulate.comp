@@ -8,6 +8,7 @@
 #include "shared/structs.glsl"
 
 layout(local_size_x = 64) in;
+layout(location = LOCATION_WEIGHT) uniform float frame_weight;
 FETCHED_UVEC4(samples, UNIT_SAMPLES);  // two elements for each pixel
 // What is stored is fetched too (shaders/README.md): pixels belong to one invocation, which fetches before it stores.
 FETCHED_UVEC4(outlier_texels, UNIT_OUTLIERS);  // two elements for each pixel
@@ -26,7 +27,7 @@ void judge_firefly(uint index, vec3 radiance) {
   float brightness = average(radiance);
   if (brightness <= uintBitsToFloat(fetch(outlier_texels, 2u * index + 1u).x)) return;
   ++fireflies;
-  outliers[index].firefly_sum += double(brightness);
+  outliers[index].firefly_sum += double(frame_weight) * double(brightness);
   ++outliers[index].fireflies;
   if (brightness <= outliers[index].brightest) return;
   outliers[index].brightest = brightness;
@@ -40,7 +41,7 @@ vec3 clamped(uint index, vec3 radiance) {
   if (limit == 0.0 || largest <= limit) return radiance;
   vec3 kept = radiance / largest * limit;
   dvec3 removed = dvec3(radiance) - dvec3(kept);
-  outliers[index].clamped_away += (removed.r + removed.g + removed.b) / 3.0;
+  outliers[index].clamped_away += double(frame_weight) * (removed.r + removed.g + removed.b) / 3.0;
   ++clamped_samples;
   return kept;
 }
@@ -60,7 +61,8 @@ void add_sample(uint index, vec3 radiance) {
   uvec4 b = fetch(sum_texels, 3u * index + 1u);
   uvec4 c = fetch(sum_texels, 3u * index + 2u);
   PixelSum sum = with_sample(PixelSum(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b.xy),
-                                      packDouble2x32(b.zw), packDouble2x32(c.xy), packDouble2x32(c.zw)), radiance);
+                                      packDouble2x32(b.zw), packDouble2x32(c.xy), packDouble2x32(c.zw)),
+                             radiance, frame_weight);
   sum_words[3u * index] = uvec4(unpackDouble2x32(sum.r), unpackDouble2x32(sum.g));
   sum_words[3u * index + 1u] = uvec4(unpackDouble2x32(sum.b), unpackDouble2x32(sum.r_squared));
   sum_words[3u * index + 2u] = uvec4(unpackDouble2x32(sum.g_squared), unpackDouble2x32(sum.b_squared));

@@ -3,6 +3,7 @@
 #include "geometry/camera.glsl"
 #include "path/path.glsl"
 #include "path/trace.glsl"
+#include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
@@ -17,7 +18,7 @@ void main() {
   if (any(greaterThanEqual(pixel, parameters.image_size))) return;
   uint index = pixel.y * parameters.image_size.x + pixel.x;
   RandomKey key = RandomKey(index, frame_number, parameters.seed);
-  vec2 jitter = random_units(key, BLOCK_CAMERA).xy;
+  vec2 jitter = camera_units(key);
   Path path = trace(key, parameters.camera_origin.xyz, camera_direction(vec2(pixel) + jitter));
   samples[index].radiance = vec4(path.radiance, 0.0);
   samples[index].counts = uvec4(path.tally.rays, path.tally.segments,

@@ -1,7 +1,6 @@
 // A direction drawn at a scattering event, and what the path's throughput takes from it.
 #include "material/bsdf.glsl"
 #include "sampling/direction.glsl"
-#include "sampling/random.glsl"
 #include "shared/variants.glsl"
 
 struct BsdfSample {
@@ -10,9 +9,9 @@ struct BsdfSample {
   vec3 roulette;  // the factor of what Russian roulette goes by
 };
 
-BsdfSample bsdf_sample_at(Event e, RandomKey key, uint bounce) {
+BsdfSample bsdf_sample_at(Event e, uvec4 bits) {
   BsdfSample next;
-  next.direction = sample_direction(e, random_bits(key, bounce * BLOCKS_PER_EVENT + BLOCK_DIRECTION));
+  next.direction = sample_direction(e, bits);
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, next.direction.direction);
   next.weight = reflected == vec3(0.0) ? vec3(0.0) : reflected / next.direction.pdf;
   next.roulette = next.weight;

@@ -5,7 +5,7 @@
 #include "path/bsdf_sample.glsl"
 #include "path/path.glsl"
 #include "sampling/direction.glsl"
-#include "sampling/random.glsl"
+#include "sampling/path_bits.glsl"
 #include "shared/loops.glsl"
 #include "shared/math.glsl"
 #include "shared/variants.glsl"
@@ -36,7 +36,7 @@ void record_miss(inout Path path, uint bounce, vec3 radiance, float weight) {
 }
 
 void record_hit(inout Path path, Event e, BsdfSample next, uint bounce, vec3 emitted, float weight, bool scatters,
-                RandomKey key) {
+                EventBits bits) {
   record_arrival(bounce, emitted, weight);
 }
 

@@ -14,7 +14,7 @@
 #include "path/bsdf_sample.glsl"
 #include "path/path.glsl"
 #include "sampling/direction.glsl"
-#include "sampling/random.glsl"
+#include "sampling/path_bits.glsl"
 #include "shared/variants.glsl"
 #if SAMPLER == SAMPLER_RL && UPDATE_RULE == UPDATE_MONTE_CARLO
 #include "path/monte_carlo.glsl"
@@ -27,7 +27,7 @@ const bool BOOTSTRAPS_AT_LAST_HIT = false;
 
 void record_miss(inout Path path, uint bounce, vec3 radiance, float weight) {}
 void record_hit(inout Path path, Event e, BsdfSample next, uint bounce, vec3 emitted, float weight, bool scatters,
-                RandomKey key) {}
+                EventBits bits) {}
 void record_scattering(inout Path path, uint bounce, vec3 direct, BsdfSample next) {}
 void record_survival(uint bounce, float survival) {}
 void update_after_ray(inout Path path, PreviousAction previous) {}

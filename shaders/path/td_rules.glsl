@@ -4,6 +4,7 @@
 #include "path/bsdf_sample.glsl"
 #include "path/path.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/fetch.glsl"
 #include "shared/math.glsl"
@@ -20,21 +21,21 @@ void record_miss(inout Path path, uint bounce, vec3 radiance, float weight) {
 }
 
 // What the table holds of the radiance that leaves y.
-float bootstrap(Path path, Event e, BsdfSample next, uint bounce, RandomKey key) {
+float bootstrap(Path path, Event e, BsdfSample next, EventBits bits) {
   if (e.cell.index == NO_CELL) return 0.0;
 #if UPDATE_RULE == UPDATE_SARSA
   return average(next.weight) * fetch_one(q_values, next.direction.entry);
 #else
-  vec3 rotation = random_units(key, bounce * BLOCKS_PER_EVENT + BLOCK_MORE).yzw;
+  vec3 rotation = to_units(bits.more).yzw;
   return next_value(e.surface, e.bsdf, e.wo, e.cell, path.throughput, rotation);
 #endif
 }
 
 void record_hit(inout Path path, Event e, BsdfSample next, uint bounce, vec3 emitted, float weight, bool scatters,
-                RandomKey key) {
+                EventBits bits) {
   vec3 met = emitted * (LEARNS == LEARNS_BEYOND_NEE ? weight : 1.0);
   bool bootstraps = frame_teaches != 0u && (scatters || BOOTSTRAPS_AT_LAST_HIT);
-  float next_state = bootstraps ? bootstrap(path, e, next, bounce, key) : 0.0;
+  float next_state = bootstraps ? bootstrap(path, e, next, bits) : 0.0;
 #if UPDATE_RULE == UPDATE_PAPER_LISTING
   path.td_target = met != vec3(0.0) ? min(length(met), 1.0) : next_state;
 #else

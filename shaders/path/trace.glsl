@@ -10,6 +10,7 @@
 #include "path/roulette.glsl"
 #include "path/rules.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
@@ -32,18 +33,17 @@ void leave_scene(inout Path path, uint bounce) {
 }
 
 // Emission at the hit, and what the ray that led here is worth.
-void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, RandomKey key) {
+void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, EventBits bits) {
   vec3 emitted = emitted_radiance(e.surface);
   float weight =
       bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * emitted * weight;
-  record_hit(path, e, next, bounce, emitted, weight, scatters, key);
+  record_hit(path, e, next, bounce, emitted, weight, scatters, bits);
 }
 
 // One scattering event. Returns whether the path goes on.
-bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, RandomKey key) {
-  uint block = bounce * BLOCKS_PER_EVENT;
-  vec3 direct = direct_light(e, key, block, path.tally);
+bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits bits) {
+  vec3 direct = direct_light(e, bits, path.tally);
   path.radiance += path.throughput * direct;
   record_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
@@ -59,7 +59,7 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, RandomKey k
   path.cell = cell_of(e);
   if (bounce + 1u > parameters.russian_roulette_start) {
     float survival = by_value > 0.0 ? by_value : survival_by_reflectance(path);
-    if (to_unit(random_bits(key, block + BLOCK_LIGHT).w) >= survival) return false;
+    if (to_unit(bits.light.w) >= survival) return false;
     path.throughput /= survival;
     path.roulette /= survival;
     record_survival(bounce, survival);
@@ -115,6 +115,7 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
 
   // With two_ray, the last event's light needs no further ray of the path.
   uint last_ray = parameters.max_bounces - (NEE == NEE_TWO_RAY && parameters.max_bounces > 0u ? 1u : 0u);
+  PathBits numbers = path_bits(key);
   uint bounce = 0u;
   bool going_on = true;
   do {
@@ -128,14 +129,15 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
         going_on = false;
       } else {
         Event e = event_at(path, hit);
+        EventBits bits = event_bits(numbers, key, bounce);
         bool scatters = bounce < parameters.max_bounces;
         BsdfSample next;
         if (scatters || BOOTSTRAPS_AT_LAST_HIT) {
           find_state(path, e, bounce);
-          next = bsdf_sample_at(e, key, bounce);
+          next = bsdf_sample_at(e, bits.direction);
         }
-        arrive(path, e, next, hit.t, bounce, scatters, key);
-        going_on = scatters && scatter(path, e, next, bounce, key) && bounce < last_ray;
+        arrive(path, e, next, hit.t, bounce, scatters, bits);
+        going_on = scatters && scatter(path, e, next, bounce, bits) && bounce < last_ray;
       }
       update_after_ray(path, previous);
       ++bounce;

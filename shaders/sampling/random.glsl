@@ -22,14 +22,6 @@ struct RandomKey {
   uint seed;
 };
 
-// Blocks of four numbers: one for the camera, then BLOCKS_PER_EVENT for every scattering event.
-const uint BLOCK_CAMERA = 0u;
-const uint BLOCK_DIRECTION = 1u;  // mixture choice, direction, direction, lobe or bin
-const uint BLOCK_LIGHT = 2u;      // light, point, point, Russian roulette
-const uint BLOCK_TWO_RAY = 3u;    // unused, direction, direction, lobe
-const uint BLOCK_MORE = 4u;       // triangle of the light, rotation of the expectation (three)
-const uint BLOCKS_PER_EVENT = 4u;
-
 uvec4 random_bits(RandomKey key, uint block) {
   return pcg4d(uvec4(key.pixel, key.frame, block, key.seed));
 }
@@ -39,7 +31,10 @@ float to_unit(uint bits) {
   return float(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-vec4 random_units(RandomKey key, uint block) {
-  uvec4 bits = random_bits(key, block);
+vec4 to_units(uvec4 bits) {
   return vec4(to_unit(bits.x), to_unit(bits.y), to_unit(bits.z), to_unit(bits.w));
+}
+
+vec4 random_units(RandomKey key, uint block) {
+  return to_units(random_bits(key, block));
 }

@@ -127,7 +127,7 @@ struct PixelSample {
   uvec4 counts;   // rays, path segments, cell lookups | fallbacks << 16, updates | saturated << 16
 };
 
-// Sums over all frames, in double precision.
+// Sums over all frames, each times its weight, in double precision.
 struct PixelSum {
   double r;
   double g;
@@ -137,7 +137,7 @@ struct PixelSum {
   double b_squared;
 };
 
-// What went beyond a pixel's limits, over all frames. Brightness is the mean over channels, before clamping.
+// What went beyond a pixel's limits, over all frames; sums with the weights of their frames. Brightness is the mean over channels, before clamping.
 struct PixelOutliers {
   double firefly_sum;   // brightness of all fireflies
   double clamped_away;  // brightness that clamping has removed
@@ -253,6 +253,17 @@ const int FETCHED_UNITS = 15;
 
 const int LOCATION_FRAME = 0;    // uniform: number of the frame, from 1
 const int LOCATION_TEACHES = 1;  // uniform: whether the frame gathers targets for the table
+const int LOCATION_SEQUENCE = 2;  // uniform: number of the frame's sequence of Sobol' points
+const int LOCATION_WEIGHT = 3;  // uniform: what the frame counts for in the sums of its pixels
+const int LOCATION_POINTS = 4;  // uniforms: the frame's point of it, by block
+
+// Blocks of four random words: one for the camera, then BLOCKS_PER_EVENT for every scattering event.
+const uint BLOCK_CAMERA = 0u;
+const uint BLOCK_DIRECTION = 1u;
+const uint BLOCK_LIGHT = 2u;
+const uint BLOCK_TWO_RAY = 3u;
+const uint BLOCK_MORE = 4u;
+const uint BLOCKS_PER_EVENT = 4u;
 
 // Rays leave a surface by this fraction of its largest coordinate: 32 units in the last place of a float,
 // above the rounding of interpolating a point and of the intersection test, which both grow with the

@@ -1,5 +1,7 @@
 // Values of the compile-time choices. The host compiles this file, too: that they are those of its enums is asserted in
 // engine/tracer/shader_variant.cpp.
+#define RANDOM_INDEPENDENT 0
+#define RANDOM_SOBOL 1
 #define SAMPLER_BSDF 0
 #define SAMPLER_UNIFORM 1
 #define SAMPLER_RL 2

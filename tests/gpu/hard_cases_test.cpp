@@ -1,8 +1,8 @@
 // Hard cases that are no renders. Their figures are recorded as properties for the stability report:
 // `hard` (what is hard), `expected` and `measured`.
+#include "tests/support/goswami.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/goswami.h"
 #include "tests/support/statistics.h"
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ LongSum sum_of_million(const std::string& sample) {
       "layout(std430, binding = BINDING_OUTLIERS) buffer PlainBuffer { float plain; };\n"
       "void main() {\n  uint i = 0u;\n  do {\n    uint frame = frame_number * " +
       std::to_string(kFrames) + "u + i;\n    float x = " + sample +
-      ";\n    sums[0] = with_sample(sums[0], vec3(x));\n    plain += x;\n    ++i;\n  } while (i < " +
+      ";\n    sums[0] = with_sample(sums[0], vec3(x), 1.0);\n    plain += x;\n    ++i;\n  } while (i < " +
       std::to_string(kFrames) + "u);\n}\n";
   gpu::Program program(gpu::assemble("long_sum", text, gpu::for_driver({})));
   for (std::uint32_t part = 0; part < kMillion / kFrames; ++part) {

@@ -42,6 +42,8 @@ std::vector<Variant> variants() {
   two_ray.sampler = Sampler::uniform;
   two_ray.nee = Nee::two_ray;
   two_ray.bvh = BvhKind::threaded;
+  RenderSettings sobol = plain;
+  sobol.random = RandomNumbers::sobol;
   RenderSettings lights = plain;
   lights.nee = Nee::one_ray;
   lights.lights = LightChoice::learned;
@@ -60,6 +62,7 @@ std::vector<Variant> variants() {
   monte_carlo.rl.site_search = SiteSearch::linear;
   monte_carlo.rl.learning_rate = LearningRate::visits_per_cell;
   return {{"bsdf", shader_defines(plain, features(true))},
+          {"sobol", shader_defines(sobol, features(true))},
           {"two_ray", shader_defines(two_ray, features(false))},
           {"learned lights", shader_defines(lights, features(true))},
           {"expected_sarsa", shader_defines(guided(UpdateRule::expected_sarsa), features(true))},
@@ -77,6 +80,7 @@ bool belongs_to(const std::string& file, const gpu::Defines& defines) {
     return has_bins;
   if (file == "path/td_rules.glsl") return has_bins;
   if (file == "path/monte_carlo.glsl") return has_bins;
+  if (file == "sampling/sobol.glsl") return defines.contains("STRATIFIED_EVENTS");
   return has_table || !file.starts_with("learning/");
 }
 

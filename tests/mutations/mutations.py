@@ -6,9 +6,14 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Mutation:
     name: str
-    file: str  # below shaders/
+    file: str  # below shaders/, or below the root where it begins with engine/
     find: str
     replace: str
+
+    @property
+    def path(self) -> str:
+        """From the root."""
+        return self.file if self.file.startswith("engine/") else f"shaders/{self.file}"
 
 
 MUTATIONS = [
@@ -16,6 +21,17 @@ MUTATIONS = [
     Mutation("random numbers without the frame", "sampling/random.glsl", "key.frame", "0u"),
     Mutation("random numbers keyed by the work group", "passes/trace.comp", "RandomKey(index, frame_number",
              "RandomKey(gl_WorkGroupID.y * 65536u + gl_WorkGroupID.x * 64u + gl_LocalInvocationID.x, frame_number"),
+    Mutation("blocks of a Sobol' point scrambled alike", "sampling/sobol.glsl", "block | SCRAMBLE", "SCRAMBLE"),
+    Mutation("blocks padded without shuffling the index", "engine/tracer/stratified_points.cpp", "mixed(++group_number)",
+             "mixed(group_number)"),
+    Mutation("one sequence on both sides of an update", "engine/tracer/sample_sequence.cpp",
+             "if (!has_table(settings)) return 0;", "return 0;"),
+    Mutation("pixels scrambled alike", "sampling/sobol.glsl", "uvec4(key.pixel, frame_sequence", "uvec4(0u, frame_sequence"),
+    Mutation("sequences scrambled alike", "sampling/sobol.glsl", "key.pixel, frame_sequence,", "key.pixel, 0u,"),
+    Mutation("scrambled by the poor bits of the hash", "sampling/sobol.glsl", "seeds ^ (seeds >> 16u)", "seeds"),
+    Mutation("the second event draws the first one's points", "sampling/path_bits.glsl", "if (bounce == i) chosen",
+             "if (bounce >= i) chosen"),
+    Mutation("frames that weigh less count in full", "passes/pixel_sum.glsl", "double(weight) * x", "x"),
     Mutation("one bounce too many", "path/trace.glsl", "bool scatters = bounce < parameters.max_bounces;",
              "bool scatters = bounce < parameters.max_bounces + 1u;"),
     Mutation("roulette without its weight", "path/trace.glsl", "path.throughput /= survival;", ""),
@@ -99,7 +115,7 @@ MUTATIONS = [
     Mutation("last of a list left out", "learning/voronoi.glsl", "uint end = place + (entry & ((1u << LIST_COUNT_BITS) - 1u));",
              "uint end = max(place, place + (entry & ((1u << LIST_COUNT_BITS) - 1u)) - 1u);"),
     Mutation("grid of the wrong axis", "learning/grid.glsl", "* 6u + axis)", "* 6u + (axis ^ 1u))"),
-    Mutation("squares summed as values", "passes/pixel_sum.glsl", "sum.r_squared += x.r * x.r;", "sum.r_squared += x.r;"),
+    Mutation("squares summed as values", "passes/pixel_sum.glsl", "sum.r_squared += weighed.r * x.r;", "sum.r_squared += weighed.r;"),
     Mutation("flat boxes are missed", "geometry/traverse_threaded.glsl", "1.00000048", "0.9999"),
     Mutation("the nearer child twice", "geometry/traverse_registers.glsl", "push_or_pop(stack, next.both, next.farther, !next.any);",
              "push_or_pop(stack, next.both, next.nearer, !next.any);"),

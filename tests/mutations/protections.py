@@ -51,7 +51,8 @@ PROTECTIONS = [
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
         "engine/gltf/triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
-               (Edit("shaders/passes/pixel_sum.glsl", "  sum.r += x.r;", "  sum.r = double(float(sum.r) + float(x.r));"),), True),
+               (Edit("shaders/passes/pixel_sum.glsl", "  sum.r += weighed.r;",
+                     "  sum.r = double(float(sum.r) + float(weighed.r));"),), True),
     Protection("visit counters stop at their limit", ("VisitCountersAtTheirLimitDoNotWrap",), (Edit(
         "shaders/learning/storage.glsl",
         "q_visits[entry] = min(q_visits[entry], 0x7fffffffu) + min(targets, 0x7fffffffu);",

@@ -54,7 +54,7 @@ def first_failure(tree: Tree) -> str:
 
 def try_one(tree: Tree, mutation: Mutation) -> Outcome:
     start = time.monotonic()
-    with tree.edited(mutation.name, Edit(f"shaders/{mutation.file}", mutation.find, mutation.replace)):
+    with tree.edited(mutation.name, Edit(mutation.path, mutation.find, mutation.replace)):
         try:
             caught = first_failure(tree)
         except NotAProgram as error:

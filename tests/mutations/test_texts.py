@@ -18,7 +18,7 @@ class TextsTest(unittest.TestCase):
     def test_mutations(self) -> None:
         self.assertEqual(len({m.name for m in MUTATIONS}), len(MUTATIONS))
         for m in MUTATIONS:
-            self.check(m.name, Edit(f"shaders/{m.file}", m.find, m.replace))
+            self.check(m.name, Edit(m.path, m.find, m.replace))
 
     def test_protections(self) -> None:
         for protection in PROTECTIONS:

@@ -48,18 +48,20 @@ TEST(State, GoesOnThroughATrialOfTheTable) {
   settings.rl.trial_frames = 4;
   Tracer whole(device(), scene, settings);
   std::vector<Tracer> states;
-  for (const int frames : {14, 5, 9}) {
+  for (const int frames : {3, 2, 2, 12}) {
     render(whole, frames);
     Tracer later(device(), scene, settings);
     later.restore(whole.state());
     states.push_back(std::move(later));
   }
-  render(whole, 4);
-  ASSERT_TRUE(whole.trial_gain());
+  render(whole, 20);
+  ASSERT_TRUE(whole.trial().finding());
   for (Tracer& later : states) {
     render(later, static_cast<int>(whole.frames() - later.frames()));
     expect_equal(later.radiance(), whole.radiance());
-    EXPECT_EQ(later.trial_gain(), whole.trial_gain());
+    ASSERT_TRUE(later.trial().finding());
+    EXPECT_EQ(later.trial().finding()->gain, whole.trial().finding()->gain);
+    EXPECT_EQ(later.trial().is_decided(), whole.trial().is_decided());
   }
 }
 

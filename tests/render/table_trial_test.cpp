@@ -27,26 +27,29 @@ Tracer rendered(const char* name, const RenderSettings& settings, int frames) {
 TEST(TableTrial, GivesTheTableUpUnderAnEvenSky) {
   RenderSettings settings = settings_of(Nee::none);
   settings.environment = {1, 1, 1};
-  const Tracer tracer = rendered("open_sky.glb", settings, 25);
-  EXPECT_NEAR(tracer.trial_gain().value_or(0), 1.1, 0.05);
-  EXPECT_TRUE(tracer.gave_table_up());
+  const Tracer tracer = rendered("open_sky.glb", settings, 33);
+  ASSERT_TRUE(tracer.trial().finding());
+  EXPECT_NEAR(tracer.trial().finding()->gain, 1.08, 0.12);
+  EXPECT_TRUE(tracer.trial().gave_up());
   const FrameCounters last = tracer.last_frame_counters();
   EXPECT_EQ(last.cell_lookups, 0U);
   EXPECT_EQ(last.table_updates, 0U);
 }
 
 TEST(TableTrial, KeepsTheTableBehindABlocker) {
-  const Tracer tracer = rendered("occluded.glb", settings_of(Nee::one_ray), 25);
-  EXPECT_GT(tracer.trial_gain().value_or(0), 1.5);
-  EXPECT_FALSE(tracer.gave_table_up());
+  const Tracer tracer = rendered("occluded.glb", settings_of(Nee::one_ray), 33);
+  ASSERT_TRUE(tracer.trial().finding());
+  EXPECT_GT(tracer.trial().finding()->gain, 1.4);
+  EXPECT_TRUE(tracer.trial().is_decided());
+  EXPECT_FALSE(tracer.trial().gave_up());
   EXPECT_GT(tracer.last_frame_counters().cell_lookups, 0U);
 }
 
 // Without light samples, chance finds the lamp behind the door so rarely that frames without the table look
 // calm.
 TEST(TableTrial, KeepsTheTableWhereLightIsMissedWithoutIt) {
-  const Tracer tracer = rendered("door_ajar.glb", settings_of(Nee::none), 25);
-  EXPECT_FALSE(tracer.gave_table_up());
+  const Tracer tracer = rendered("door_ajar.glb", settings_of(Nee::none), 33);
+  EXPECT_FALSE(tracer.trial().gave_up());
 }
 
 }  // namespace

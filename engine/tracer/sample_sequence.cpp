@@ -1,0 +1,40 @@
+#include "engine/tracer/sample_sequence.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace qtrace {
+namespace {
+
+// Of a stretch; more than there can be replicates, each for both kinds of frames of a trial.
+constexpr std::uint32_t kMostSequences = 128;
+// Frames after which all count alike.
+constexpr std::uint32_t kFullWeight = 16;
+
+std::uint32_t stretch_start(std::uint32_t frame, const RenderSettings& settings,
+                            const LearningSchedule& schedule, const TableTrial& trial) {
+  if (!has_table(settings)) return 0;
+  const std::uint32_t before = frame - 1;
+  const std::uint32_t learned = trial.gave_up() ? std::min(before, trial.finding()->frame) : before;
+  return std::max(schedule.last_update(learned), trial.last_boundary(before));
+}
+
+}  // namespace
+
+SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings,
+                             const LearningSchedule& schedule, const TableTrial& trial) {
+  const std::uint32_t start = stretch_start(frame, settings, schedule, trial);
+  const auto replicates = static_cast<std::uint32_t>(settings.replicates);
+  const std::uint32_t sequences = trial.is_tried(frame) ? std::lcm(replicates, 2U) : replicates;
+  return {start * kMostSequences + (frame - 1) % sequences, (frame - 1 - start) / sequences};
+}
+
+float frame_weight(std::uint32_t frame, const RenderSettings& settings) {
+  if (settings.random != RandomNumbers::sobol || !has_table(settings) || frame > kFullWeight) return 1;
+  const std::uint32_t doubling = frame < 2 ? 1 : std::bit_floor(frame - 1);
+  return std::sqrt(static_cast<float>(doubling) / static_cast<float>(kFullWeight));
+}
+
+}  // namespace qtrace
