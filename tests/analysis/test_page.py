@@ -194,6 +194,16 @@ class FindingsTest(ReportTest):
         self.assertRegex(slopes.details[0], r"^simple / BSDF: relMSE −1.3 \[−1.4, −1.2\], steeper than −1")
         self.assertRegex(slopes.details[1], r"^occluded / RL: relMSE −0.75 .*, flatter than −1")
 
+    def test_sobol_points_may_be_steep(self) -> None:
+        write_configurations(self.results, {"simple / BSDF": (-1.3, -1.4, -1.2), "occluded / RL": (-0.75, -0.8, -0.7)})
+        for file in self.results.glob("*/manifest.json"):
+            manifest = json.loads(file.read_text(encoding="utf-8"))
+            manifest["config"]["random"] = "sobol"
+            file.write_text(json.dumps(manifest), encoding="utf-8")
+        (slopes,) = findings(read_sweep(self.results))
+        self.assertEqual(len(slopes.details), 1)
+        self.assertIn("flatter", slopes.details[0])
+
     def test_noisy_machine_and_odd_samples(self) -> None:
         rows = read_fields(self.results / "summary.csv")
         rows[0].update(noisy="1", warmup_detected="9", non_finite="3")

@@ -62,13 +62,16 @@ double Comparison::truth_error() const {
 }
 
 Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision,
-                              const std::function<void(const Agreement&)>& watch) const {
+                              const std::function<void(const Agreement&)>& watch,
+                              RandomNumbers random) const {
   RenderSettings settings;
   settings.width = settings.height = size_.size;
   settings.max_bounces = kBounces;
   settings.sampler = sampler;
   settings.nee = nee;
   settings.seed = 77;
+  settings.random = random;
+  settings.replicates = random == RandomNumbers::sobol ? 16 : 1;
   settings.rl.sites_per_object = 40;
   settings.environment = {sky_, sky_, sky_};
   Tracer tracer(test::device(), scene_, settings);

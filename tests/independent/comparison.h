@@ -36,8 +36,10 @@ class Comparison {
 
   // Renders at least `frames`, and on up to `most_frames` until the ratio of the means is known to
   // `precision`. `watch` sees what is known after each part of `frames`.
+  // With Sobol' points it has 16 replicates, whose spread is its variance.
   Agreement measure(Sampler sampler, Nee nee, int frames, int most_frames = 0, double precision = 0,
-                    const std::function<void(const Agreement&)>& watch = {}) const;
+                    const std::function<void(const Agreement&)>& watch = {},
+                    RandomNumbers random = RandomNumbers::independent) const;
 
  private:
   Agreement compare(const RadianceImage& image) const;

@@ -52,6 +52,15 @@ TEST_P(Shipped, TheReferencesSamplerAgrees) {
   EXPECT_EQ(found.non_finite, 0U);
 }
 
+// The tracer's own noise is most of what is between them: that of 256 Sobol' points is far less.
+TEST_P(Shipped, SobolPointsAgree) {
+  Comparison comparison(GetParam(), {.size = 32, .samples = 256});
+  const Agreement found =
+      comparison.measure(Sampler::bsdf, Nee::one_ray, 256, 0, 0, {}, RandomNumbers::sobol);
+  EXPECT_TRUE(found.agrees(kQuickChance)) << found.text();
+  EXPECT_EQ(found.non_finite, 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Shipped, testing::ValuesIn(kScenes), [](const auto& scene) {
   const std::string name = scene.param;
   return name.substr(0, name.find('.'));

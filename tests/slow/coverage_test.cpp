@@ -40,6 +40,7 @@ struct Method {
   Sampler sampler = Sampler::bsdf;
   Nee nee = Nee::none;
   int reference_frames = 0;
+  RandomNumbers random = RandomNumbers::independent;
 };
 
 Scene scene_of(const Method& method) {
@@ -53,6 +54,7 @@ RenderSettings small_settings(const Method& method, std::uint32_t seed) {
   settings.max_bounces = 4;
   settings.sampler = method.sampler;
   settings.nee = method.nee;
+  settings.random = method.random;
   settings.seed = seed;
   return settings;
 }
@@ -150,10 +152,13 @@ TEST_P(Coverage, TimeToError) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Coverage,
-                         testing::Values(Method{"bsdf", Sampler::bsdf, Nee::none, 4096},
-                                         Method{"rl", Sampler::rl, Nee::one_ray, 16384}),
-                         [](const auto& method) { return method.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, Coverage,
+    testing::Values(Method{"bsdf", Sampler::bsdf, Nee::none, 4096},
+                    Method{"rl", Sampler::rl, Nee::one_ray, 16384},
+                    Method{"sobol", Sampler::bsdf, Nee::one_ray, 16384, RandomNumbers::sobol},
+                    Method{"rl_sobol", Sampler::rl, Nee::one_ray, 16384, RandomNumbers::sobol}),
+    [](const auto& method) { return method.param.name; });
 
 }  // namespace
 }  // namespace qtrace::experiments

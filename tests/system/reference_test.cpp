@@ -77,6 +77,21 @@ TEST_F(ReferenceProgram, AnExtendedOneHasTheBitsOfOneGo) {
   EXPECT_EQ(manifest("a").at("wish"), "5 frames");
 }
 
+// Sixteen sequences, each as long as the others.
+TEST_F(ReferenceProgram, OneOfSobolPointsIsExtendedToTheSameBits) {
+  run("a", {"frames=16", "random=sobol"});
+  EXPECT_EQ(manifest("a").at("samples"), 16);
+  run("a", {"frames=40", "random=sobol"});
+  EXPECT_EQ(manifest("a").at("origin"), "extended");
+  EXPECT_EQ(manifest("a").at("samples"), 48) << "not a whole number of points for each sequence";
+  run("b", {"frames=48", "random=sobol"});
+  EXPECT_EQ(folder_.read(exr("a")), folder_.read(exr("b")));
+  const experiments::ExrImage image = experiments::read_exr(folder_ / exr("a"));
+  EXPECT_EQ(image.metadata.at("varianceNote").find("of the mean, from the spread of 16 replicates"), 0U);
+  run("c", {"frames=48"});
+  EXPECT_NE(fs::path(exr("c")).filename(), fs::path(exr("a")).filename());
+}
+
 TEST_F(ReferenceProgram, AKilledRenderGoesOnWithTheSameBits) {
   const bool killed = kill_qtrace_when(arguments("a", {"frames=10000000"}), folder_.path(),
                                        [&] { return !state("a").empty(); });

@@ -111,6 +111,11 @@ TEST(Baseline, TheTableWarnsOfSlopesThatAreNotMinusOne) {
   EXPECT_NE(table.find("- b / RL / 20: slope_mse against spp -2 [-2, -2]: steeper"), std::string::npos)
       << table;
   EXPECT_EQ(table.find("NEE / 10: slope"), std::string::npos);
+  // Steep is what Sobol' points are for; flat they should not be, either.
+  for (RunRecord& run : all) run.run.config.render.random = RandomNumbers::sobol;
+  const std::string of_sobol = experiment_table(experiment(""), all, {}, "d");
+  EXPECT_NE(of_sobol.find("flatter"), std::string::npos) << of_sobol;
+  EXPECT_EQ(of_sobol.find("steeper"), std::string::npos) << of_sobol;
 }
 
 }  // namespace

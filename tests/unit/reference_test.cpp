@@ -119,6 +119,37 @@ TEST(ReferenceWish, LooksAtMultiplesThatDoNotDependOnThePast) {
   EXPECT_EQ(length.next_look(21), 21);
 }
 
+// A whole number of points for each of 16 replicates; looked at where that is a power of two, or half as many
+// again.
+TEST(ReferenceWish, LooksAtWholeNetsOfSobolPoints) {
+  RunConfig config = small_config();
+  config.reference.random = RandomNumbers::sobol;
+  config.reference.frames = 20;
+  config.reference.relative_error = 0.1;
+  config.reference.max_frames = 500;
+  const ReferenceSpec spec = reference_spec(config, "scene");
+  EXPECT_EQ(spec.settings.replicates, 16);
+  EXPECT_EQ(spec.wish.frames, 32);
+  EXPECT_EQ(spec.wish.max_frames, 512);
+  std::vector<int> looks;
+  for (int frame = 0; frame < 512; ++frame) {
+    const int look = spec.wish.next_look(frame);
+    EXPECT_GE(look, frame);
+    if (looks.empty() || looks.back() != look) looks.push_back(look);
+  }
+  EXPECT_EQ(looks, (std::vector<int>{32, 48, 64, 96, 128, 192, 256, 384, 512}));
+}
+
+TEST(Reference, OfSobolPointsIsAnother) {
+  RunConfig config = small_config();
+  const std::string independent = hash_of(config);
+  config.render.random = RandomNumbers::sobol;
+  config.render.replicates = 4;
+  EXPECT_EQ(hash_of(config), independent) << "what the run draws from is not the reference's";
+  config.reference.random = RandomNumbers::sobol;
+  EXPECT_NE(hash_of(config), independent);
+}
+
 TEST(ReferenceWish, OfTwoRunsServesBoth) {
   const ReferenceWish length{50, 0, 9999};
   const ReferenceWish noise{8, 0.5, 64};
