@@ -57,16 +57,6 @@ constexpr std::array<Directions, kSobolDimensions> all_directions() {
 }
 constexpr std::array<Directions, kSobolDimensions> kDirections = all_directions();
 
-// A bijection of 32 bits in which every bit of the argument changes each of the result with a chance of one
-// half (Wellons 2018, "Prospecting for Hash Functions").
-std::uint32_t mixed(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
-}
-
 }  // namespace
 
 std::uint32_t sobol(std::uint32_t index, int dimension) {
@@ -76,6 +66,14 @@ std::uint32_t sobol(std::uint32_t index, int dimension) {
     x ^= v[static_cast<std::size_t>(std::countr_zero(left))];
   }
   return x;
+}
+
+std::uint32_t mixed(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  return x ^ (x >> 16);
 }
 
 std::uint32_t reversed_bits(std::uint32_t x) {

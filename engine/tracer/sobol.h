@@ -19,4 +19,8 @@ std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed);
 
 std::uint32_t reversed_bits(std::uint32_t x);
 
+// A bijection of 32 bits in which every bit of the argument changes each of the result with a chance of one
+// half (Wellons 2018, "Prospecting for Hash Functions").
+std::uint32_t mixed(std::uint32_t x);
+
 }  // namespace qtrace

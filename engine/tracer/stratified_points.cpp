@@ -34,16 +34,6 @@ const std::array<Group, 4> kEvent{
     Group{
         {gpu::BLOCK_LIGHT, 3, 0}, {gpu::BLOCK_MORE, 1, 1}, {gpu::BLOCK_MORE, 2, 2}, {gpu::BLOCK_MORE, 3, 3}}};
 
-// A bijection of 32 bits in which every bit of the argument changes each of the result with a chance of one
-// half (Wellons 2018, "Prospecting for Hash Functions").
-std::uint32_t mixed(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
-}
-
 }  // namespace
 
 std::vector<gpu::uvec4> stratified_points(std::uint32_t seed, std::uint32_t sequence, std::uint32_t index,

@@ -51,7 +51,7 @@ struct Block {
 
 // Means of one half of a round, over the frames of one kind (0: without the table, 1: with it).
 struct Replicates {
-  HalfSums begin, middle, end;
+  const HalfSums &begin, &middle, &end;
   double samples = 0;  // of one kind in one half, times their weight
 
   glm::dvec3 first(std::size_t kind, std::size_t pixel) const {
