@@ -40,7 +40,7 @@ struct RenderSettings {
   int width = 512;
   int height = 512;
   std::uint32_t seed = 1;
-  RandomNumbers random = RandomNumbers::independent;
+  RandomNumbers random = RandomNumbers::sobol;
   int stratified_events = 1;
   int replicates = 1;
   int max_bounces = 5;

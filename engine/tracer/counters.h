@@ -41,6 +41,21 @@ struct FrameCounters {
   std::uint64_t saturated_updates = 0;  // targets clamped to, or lost at, the fixed-point limit
   std::uint64_t fireflies = 0;          // samples brighter than their pixel's threshold
   std::uint64_t clamped_samples = 0;    // samples with a channel above clamp_radiance
+
+  FrameCounters& operator+=(const FrameCounters& other) {
+    paths += other.paths;
+    rays += other.rays;
+    path_segments += other.path_segments;
+    zero_paths += other.zero_paths;
+    cell_lookups += other.cell_lookups;
+    cell_fallbacks += other.cell_fallbacks;
+    non_finite += other.non_finite;
+    table_updates += other.table_updates;
+    saturated_updates += other.saturated_updates;
+    fireflies += other.fireflies;
+    clamped_samples += other.clamped_samples;
+    return *this;
+  }
 };
 
 }  // namespace qtrace

@@ -272,9 +272,9 @@ std::array<RadianceImage, 2> Film::halves() const {
   return {image(half(0)), image(half(1))};
 }
 
-std::array<std::vector<glm::dvec3>, 2> Film::half_sums() const {
+std::array<std::vector<glm::vec3>, 2> Film::half_sums() const {
   check_loops();
-  std::array<std::vector<glm::dvec3>, 2> halves;
+  std::array<std::vector<glm::vec3>, 2> halves;
   for (std::size_t i = 0; i < 2; ++i) {
     for (const gpu::PixelSum& s : half(i).first) halves[i].emplace_back(s.r, s.g, s.b);
   }

@@ -41,7 +41,7 @@ class Film {
   RadianceImage radiance() const;
   std::array<RadianceImage, 2> halves() const;  // of the odd and of the even frames
   // Of the odd and of the even frames, of the samples times their weights.
-  std::array<std::vector<glm::dvec3>, 2> half_sums() const;
+  std::array<std::vector<glm::vec3>, 2> half_sums() const;
   void check_loops() const;
 
   // What has gathered over the frames so far.

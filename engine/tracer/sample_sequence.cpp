@@ -31,8 +31,17 @@ SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings
   return {start * kMostSequences + (frame - 1) % sequences, (frame - 1 - start) / sequences};
 }
 
-float frame_weight(std::uint32_t frame, const RenderSettings& settings) {
+SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial) {
+  const std::uint32_t lessons = trial.pilot_lessons();
+  if (frame <= lessons) return {frame, 0};
+  const std::uint32_t tried = frame - lessons - 1;
+  const std::uint32_t half = (trial.pilot_frames() - lessons) / 2;
+  return {lessons + 1 + tried / half * 2 + tried % 2, tried % half / 2};
+}
+
+float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial) {
   if (settings.random != RandomNumbers::sobol || !has_table(settings) || frame > kFullWeight) return 1;
+  if (trial.gave_up() && trial.finding()->frame == 0) return 1;
   const std::uint32_t doubling = frame < 2 ? 1 : std::bit_floor(frame - 1);
   return std::sqrt(static_cast<float>(doubling) / static_cast<float>(kFullWeight));
 }

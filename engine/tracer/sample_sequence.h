@@ -23,9 +23,12 @@ struct SequencePlace {
 SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings,
                              const LearningSchedule& schedule, const TableTrial& trial);
 
+// Of a frame of the trial's pilot: each lesson has a sequence, and after these each half and kind of frames.
+SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial);
+
 // Of the frame in the image. With Sobol' points and a table the first frames count for less: their stretches
 // are short, and a long net is worth more than its share of the samples. It depends on nothing but the
-// frame's number, so that the mean stays without bias.
-float frame_weight(std::uint32_t frame, const RenderSettings& settings);
+// frame's number and on what was known before the first frame, so that the mean stays without bias.
+float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial);
 
 }  // namespace qtrace

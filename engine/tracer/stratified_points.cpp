@@ -3,7 +3,6 @@
 #include "engine/tracer/sobol.h"
 
 #include <array>
-#include <cstdlib>
 
 namespace qtrace {
 namespace {
@@ -48,10 +47,6 @@ std::vector<gpu::uvec4> stratified_points(std::uint32_t seed, std::uint32_t sequ
   place(kCamera, 0);
   for (int event = 0; event < events; ++event) {
     for (const Group& group : kEvent) place(group, gpu::BLOCKS_PER_EVENT * static_cast<gpu::uint>(event));
-  }
-  if (const char* o = std::getenv("QT_DIR"); o != nullptr) {
-    const std::uint32_t of_group = shuffled(index, mixed(seed ^ mixed(sequence ^ mixed(3))));
-    for (int k = 0; k < 4; ++k) points[1][k] = reversed_bits(sobol(of_group, o[k] - '0'));
   }
   return points;
 }

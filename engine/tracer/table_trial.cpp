@@ -1,27 +1,21 @@
 #include "engine/tracer/table_trial.h"
 
 #include "engine/core/check.h"
+#include "engine/tracer/table_gain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace qtrace {
 namespace {
 
-constexpr int kRounds = 3;
-// Each round is so many times as long as the one before, and starts after as many frames as it has.
-constexpr std::uint32_t kGrowth = 4;
-// Keeps relative errors of dark pixels finite (the metrics' relMSE has the same); radiance squared.
-constexpr double kDark = 0.01;
-// A pixel's own mean of so few samples would hide what is rare and bright behind itself: means are of square
-// blocks.
-constexpr std::size_t kBlock = 8;  // pixels along a side
-// Of the blocks, those with the largest errors: a bright sample alone shall not decide.
-constexpr double kTrimmedShare = 0.02;
-// Of the radiance that frames with the table find, what those without it must find for their error to count.
-constexpr double kFoundShare = 0.9;
+// Of so many times rl.trial_frames frames; each starts where the image has kRoundStarts times as many.
+constexpr std::uint32_t kRoundLength = 4;
+constexpr std::array<std::uint32_t, 2> kRoundStarts{4, 16};
+// How far the radiance that frames without the table find may be from what those with it do: beyond, one of
+// them misses light, and its error says nothing.
+constexpr double kFoundApart = 0.1;
 // Of a search for a cell with what follows from it, in units of a ray: on llvmpipe, frames of the shipped
 // scenes say 0.2 to 1.0.
 constexpr double kWorkPerLookup = 0.6;
@@ -29,97 +23,73 @@ constexpr double kWorkPerLookup = 0.6;
 constexpr double kSure = 2;
 // The relative standard error above which the table is not given up yet: where a few blocks have most of the
 // error, it is itself uncertain, and a table that is lost costs more than one that is kept.
-constexpr double kSharp = 0.08;
-// What a gain in the first round may lack, as the table has seen few frames by then.
+constexpr double kSharp = 0.1;
+// The relative standard error above which a gain says nothing.
+constexpr double kBlunt = 0.25;
+// What a gain in the pilot may lack, as the table has seen few paths by then.
 constexpr double kYoung = 0.9;
+// Between the square root of N (independent samples) and what smooth integrands allow, as an exponent of N in
+// the squared error.
+constexpr double kLeastSlope = 1;
+constexpr double kMostSlope = 1.5;
 
-constexpr std::size_t kSavedNumbers = 9;
+// Whether a gain is good for giving a table up, given the largest relative standard error for that.
+bool tells(const Gain& gain, double largest_error) {
+  return std::abs(gain.found - 1) <= kFoundApart && gain.error <= largest_error * gain.value;
+}
+
+constexpr std::size_t kSavedNumbers = 10;
+constexpr std::size_t kMostSums = 4;  // of a round, before its end
 
 double work_of(const FrameCounters& counters) {
   return static_cast<double>(counters.rays) + kWorkPerLookup * static_cast<double>(counters.cell_lookups);
 }
 
-// Without the table, and with it.
-using Kinds = std::array<double, 2>;
-
-struct Block {
-  glm::dvec3 mean{0};  // of both
-  double pixels = 0;
-  Kinds found{};  // radiance
-  Kinds errors{};
-};
-
-// Means of one half of a round, over the frames of one kind (0: without the table, 1: with it).
-struct Replicates {
-  const HalfSums &begin, &middle, &end;
-  double samples = 0;  // of one kind in one half, times their weight
-
-  glm::dvec3 first(std::size_t kind, std::size_t pixel) const {
-    return (middle[kind][pixel] - begin[kind][pixel]) / samples;
-  }
-  glm::dvec3 second(std::size_t kind, std::size_t pixel) const {
-    return (end[kind][pixel] - middle[kind][pixel]) / samples;
-  }
-};
-
-std::vector<Block> blocks_of(const Replicates& round, std::size_t width) {
-  const std::size_t pixels = round.begin[0].size();
-  const std::size_t across = width / kBlock + 1;
-  const auto block_of = [&](std::size_t i) { return i / width / kBlock * across + i % width / kBlock; };
-  std::vector<Block> blocks(pixels == 0 ? 0 : block_of(pixels - 1) / across * across + across);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    Block& block = blocks[block_of(i)];
-    ++block.pixels;
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      const glm::dvec3 sum = round.first(kind, i) + round.second(kind, i);
-      block.mean += sum / 4.0;
-      block.found[kind] += sum.r + sum.g + sum.b;
-    }
-  }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    Block& block = blocks[block_of(i)];
-    const glm::dvec3 mean = block.mean / block.pixels;
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      const glm::dvec3 difference = round.first(kind, i) - round.second(kind, i);
-      const glm::dvec3 relative = difference * difference / (mean * mean + kDark);
-      block.errors[kind] += relative.r + relative.g + relative.b;
-    }
-  }
-  std::erase_if(blocks, [](const Block& block) { return block.pixels == 0; });
-  return blocks;
+double work_of(const FrameCounters& with_table, double without) {
+  return without > 0 ? work_of(with_table) / without : 1;
 }
 
-struct Gain {
-  double value = 1;
-  double error = 0;
-  double found = 1;  // of the radiance with the table, without it
+// Frames of both kinds in turn, in two halves with random numbers of their own.
+struct RoundSums {
+  const HalfSums &begin, &quarter, &middle, &three_quarters, &end;
+  double samples = 0;  // of one kind in a half, times their weight
+
+  // Odd frames (0) or even ones (1).
+  TriedFrames halves(std::size_t kind) const {
+    return tried(kind, {&begin, &middle}, {&middle, &end}, samples);
+  }
+  // The same from the first quarter of each half alone.
+  TriedFrames quarters(std::size_t kind) const {
+    return tried(kind, {&begin, &quarter}, {&middle, &three_quarters}, samples / 2);
+  }
+
+ private:
+  using Stretch = std::array<const HalfSums*, 2>;
+
+  static TriedFrames tried(std::size_t kind, const Stretch& one, const Stretch& other, double samples) {
+    TriedFrames tried;
+    const auto mean = [&](const Stretch& of, std::size_t pixel) {
+      return (glm::dvec3((*of[1])[kind][pixel]) - glm::dvec3((*of[0])[kind][pixel])) / samples;
+    };
+    for (std::size_t i = 0; i < (*one[0])[kind].size(); ++i) {
+      const glm::dvec3 first = mean(one, i);
+      const glm::dvec3 second = mean(other, i);
+      tried.mean.push_back((first + second) / 2.0);
+      tried.squared_error.push_back((first - second) * (first - second) / 4.0);
+    }
+    return tried;
+  }
 };
 
-// The ratio of sums over blocks, and its error by linearisation (Cochran 1977, "Sampling Techniques",
-// section 6.3).
-Gain gain_of(std::vector<Block> blocks) {
-  const bool is_even =
-      std::ranges::all_of(blocks, [](const Block& b) { return b.errors[0] == 0 && b.errors[1] == 0; });
-  std::ranges::sort(blocks, {}, [](const Block& b) { return std::max(b.errors[0], b.errors[1]); });
-  const auto trimmed =
-      static_cast<std::size_t>(std::ceil(kTrimmedShare * static_cast<double>(blocks.size())));
-  blocks.resize(blocks.size() - std::min(trimmed, blocks.size()));
-  Kinds sums{}, found{};
-  for (const Block& block : blocks) {
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      sums[kind] += block.errors[kind];
-      found[kind] += block.found[kind];
-    }
-  }
-  // Few blocks alone have errors: these say nothing of the others.
-  if (sums[1] == 0) return {1, is_even ? 0 : std::numeric_limits<double>::infinity(), 1};
-  Gain gain{sums[0] / sums[1], 0, found[1] > 0 ? found[0] / found[1] : 1};
-  for (const Block& block : blocks) {
-    const double residual = block.errors[0] - gain.value * block.errors[1];
-    gain.error += residual * residual;
-  }
-  gain.error = std::sqrt(gain.error) / sums[1];
-  return gain;
+// The gain that pays for the table's work. With independent samples, as much. With Sobol' points the error
+// falls as N^-s without the table, s > 1: fewer frames for the same work lose N^-s, not N^-1; and where the
+// sequence starts anew after 1, 2, 4, ... frames, the sum of these nets has the squared error
+// Σ L^(2-s) / N^2 = N^-s / (2^(2-s) - 1).
+double needed_gain(RandomNumbers random, double work, const RoundSums& sums, int width) {
+  if (random == RandomNumbers::independent) return work;
+  const double ratio = gain_of({sums.quarters(0), sums.halves(0)}, width).value;
+  const double slope = std::clamp(std::log2(ratio), kLeastSlope, kMostSlope);
+  return std::pow(work, slope) / (std::exp2(2 - slope) - 1);
 }
 
 template <class T>
@@ -131,14 +101,40 @@ void append(std::vector<std::byte>& bytes, std::span<const T> values) {
 }  // namespace
 
 TableTrial::TableTrial(const RenderSettings& settings)
-    : first_round_(settings.sampler == Sampler::rl && !learns_lights(settings)
-                       ? static_cast<std::uint32_t>(settings.rl.trial_frames)
-                       : 0) {}
+    : unit_(settings.sampler == Sampler::rl && !learns_lights(settings)
+                ? static_cast<std::uint32_t>(settings.rl.trial_frames)
+                : 0),
+      random_(settings.random) {}
+
+bool TableTrial::looks_after_pilot(std::uint32_t frame) const {
+  return frame > pilot_lessons() && (frame - pilot_lessons()) % unit_ == 0;
+}
+
+void TableTrial::look_at_pilot(const PilotLook& seen) {
+  check(seen.sums.size() == kMostSums, "the trial of the table has not seen its pilot");
+  HalfSums nothing;
+  for (auto& half : nothing) half.assign(seen.sums[0][0].size(), glm::vec3(0));
+  const RoundSums sums{nothing, seen.sums[0], seen.sums[1], seen.sums[2], seen.sums[3], 1.0 * unit_};
+  // Independent samples are replicates each, of which there are more than of halves.
+  const auto tried = [&](std::size_t kind) {
+    if (random_ != RandomNumbers::independent) return sums.halves(kind);
+    return TriedFrames{seen.kinds[kind].mean, seen.kinds[kind].variance};
+  };
+  const Gain gain = gain_of({tried(0), tried(1)}, seen.width);
+  const double work = work_of(seen.counters[1], work_of(seen.counters[0]));
+  const double needed = needed_gain(random_, work, sums, seen.width);
+  finding_ = Finding{0, gain.value, gain.error, gain.found, work, needed};
+  if (gain.value - kSure * gain.error >= needed) {
+    verdict_ = Verdict::keep;
+  } else if (tells(gain, kSharp) && gain.value + kSure * gain.error < kYoung * needed) {
+    verdict_ = Verdict::give_up;
+  }
+}
 
 TableTrial::Round TableTrial::round(int number) const {
-  std::uint32_t length = first_round_;
-  for (int i = 0; i < number; ++i) length *= kGrowth;
-  return {length, length + length / 2, 2 * length};
+  const std::uint32_t start = unit_ * kRoundStarts[static_cast<std::size_t>(number)];
+  const std::uint32_t length = unit_ * kRoundLength;
+  return {start, start + length / 4, start + length / 2, start + length / 4 * 3, start + length};
 }
 
 bool TableTrial::takes_place(const Round& round) const {
@@ -146,7 +142,7 @@ bool TableTrial::takes_place(const Round& round) const {
 }
 
 std::optional<TableTrial::Round> TableTrial::round_of(std::uint32_t frame) const {
-  for (int number = 0; number < kRounds; ++number) {
+  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
     const Round r = round(number);
     if (takes_place(r) && frame > r.begin && frame <= r.end) return r;
   }
@@ -162,7 +158,7 @@ bool TableTrial::is_without(std::uint32_t frame) const {
 
 std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
   std::uint32_t last = 0;
-  for (int number = 0; number < kRounds; ++number) {
+  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
     const Round r = round(number);
     if (!takes_place(r)) continue;
     for (const std::uint32_t boundary : {r.begin, r.middle, r.end}) {
@@ -174,57 +170,58 @@ std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
 
 bool TableTrial::looks_after(std::uint32_t frame) const {
   if (!is_wanted() || is_decided()) return false;
-  for (int number = 0; number < kRounds; ++number) {
+  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
     const Round r = round(number);
-    if (frame == r.begin || frame == r.middle || frame == r.end - 1 || frame == r.end) return true;
+    for (const std::uint32_t wanted : {r.begin, r.quarter, r.middle, r.three_quarters, r.end - 1, r.end}) {
+      if (frame == wanted) return true;
+    }
   }
   return false;
 }
 
 void TableTrial::look(const Look& seen) {
-  for (int number = 0; number < kRounds; ++number) {
+  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
     const Round r = round(number);
-    if (seen.frame == r.begin) sums_ = {seen.sums};
-    if (seen.frame == r.middle) sums_.push_back(seen.sums);
+    if (seen.frame == r.begin) sums_.clear();
     if (seen.frame == r.end - 1) work_without_ = work_of(seen.counters);
-    if (seen.frame == r.end) conclude(r, number, seen);
+    if (seen.frame == r.end) {
+      conclude(r, number + 1 == static_cast<int>(kRoundStarts.size()), seen);
+    } else if (seen.frame >= r.begin && seen.frame < r.end - 1) {
+      sums_.push_back(seen.sums);
+    }
   }
 }
 
-void TableTrial::conclude(const Round& round, int number, const Look& last) {
-  check(sums_.size() == 2, "the trial of the table has not seen the frames before {}", last.frame);
+void TableTrial::conclude(const Round& round, bool is_last, const Look& last) {
+  check(sums_.size() == kMostSums, "the trial of the table has not seen the frames before {}", last.frame);
   const double samples = static_cast<double>(round.end - round.begin) / 4 * last.weight;
-  const Replicates replicates{sums_[0], sums_[1], last.sums, samples};
-  const Gain gain = gain_of(blocks_of(replicates, static_cast<std::size_t>(last.width)));
-  const double work = work_without_ > 0 ? work_of(last.counters) / work_without_ : 1;
-  finding_ = Finding{last.frame, gain.value, gain.error, gain.found, work};
+  const RoundSums sums{sums_[0], sums_[1], sums_[2], sums_[3], last.sums, samples};
+  const Gain gain = gain_of({sums.halves(0), sums.halves(1)}, last.width);
+  const double work = work_of(last.counters, work_without_);
+  const double needed = needed_gain(random_, work, sums, last.width);
+  finding_ = Finding{last.frame, gain.value, gain.error, gain.found, work, needed};
   sums_.clear();
-  const bool can_tell = gain.found >= kFoundShare && gain.error <= kSharp * gain.value;
-  const double least = number == 0 ? kYoung * work : work;
-  if (gain.value - kSure * gain.error >= work) {
+  const double most = gain.value + kSure * gain.error;
+  if (gain.value >= needed) {
     verdict_ = Verdict::keep;
-  } else if (can_tell && gain.value + kSure * gain.error < least) {
+  } else if (tells(gain, kSharp) && (is_last || most < needed)) {
     verdict_ = Verdict::give_up;
-  } else if (number == kRounds - 1) {
-    verdict_ = gain.found < kFoundShare || gain.value >= work ? Verdict::keep : Verdict::give_up;
+  } else if (is_last) {
+    verdict_ = tells(gain, kBlunt) && most < needed ? Verdict::give_up : Verdict::keep;
   }
 }
 
 std::vector<std::byte> TableTrial::saved() const {
   const Finding found = finding_.value_or(Finding{});
-  const std::array<double, kSavedNumbers> numbers{finding_ ? 1.0 : 0.0,
-                                                  static_cast<double>(found.frame),
-                                                  found.gain,
-                                                  found.gain_error,
-                                                  found.found,
-                                                  found.work,
-                                                  static_cast<double>(verdict_),
-                                                  work_without_,
-                                                  static_cast<double>(sums_.size())};
+  const std::array<double, kSavedNumbers> numbers{finding_ ? 1.0 : 0.0, static_cast<double>(found.frame),
+                                                  found.gain,           found.gain_error,
+                                                  found.found,          found.work,
+                                                  found.needed,         static_cast<double>(verdict_),
+                                                  work_without_,        static_cast<double>(sums_.size())};
   std::vector<std::byte> bytes;
   append<double>(bytes, numbers);
   for (const HalfSums& sums : sums_) {
-    for (const std::vector<glm::dvec3>& half : sums) append<glm::dvec3>(bytes, half);
+    for (const std::vector<glm::vec3>& half : sums) append<glm::vec3>(bytes, half);
   }
   return bytes;
 }
@@ -234,25 +231,25 @@ void TableTrial::restore(std::span<const std::byte> saved) {
   constexpr std::size_t kHead = sizeof(numbers);
   const bool has_head = saved.size() >= kHead;
   if (has_head) std::memcpy(numbers.data(), saved.data(), kHead);
-  const auto sets = static_cast<std::size_t>(std::clamp(numbers[8], 0.0, 2.0));
+  const auto sets = static_cast<std::size_t>(std::clamp(numbers[9], 0.0, 1.0 * kMostSums));
   const std::size_t rest = has_head ? saved.size() - kHead : 0;
-  check(has_head && rest % (std::max<std::size_t>(sets, 1) * 2 * sizeof(glm::dvec3)) == 0 &&
-            (sets > 0 || rest == 0) && numbers[6] >= 0 && numbers[6] <= 2,
+  check(has_head && rest % (std::max<std::size_t>(sets, 1) * 2 * sizeof(glm::vec3)) == 0 &&
+            (sets > 0 || rest == 0) && numbers[7] >= 0 && numbers[7] <= 2,
         "the state has {} bytes of a trial of the table, which cannot be one", saved.size());
-  const auto verdict = static_cast<std::uint32_t>(numbers[6]);
+  const auto verdict = static_cast<std::uint32_t>(numbers[7]);
   finding_.reset();
   if (numbers[0] != 0)
-    finding_ =
-        Finding{static_cast<std::uint32_t>(numbers[1]), numbers[2], numbers[3], numbers[4], numbers[5]};
+    finding_ = Finding{
+        static_cast<std::uint32_t>(numbers[1]), numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]};
   verdict_ = static_cast<Verdict>(verdict);
-  work_without_ = numbers[7];
+  work_without_ = numbers[8];
   sums_.assign(sets, {});
   const std::byte* from = saved.data() + kHead;
   for (HalfSums& sums : sums_) {
-    for (std::vector<glm::dvec3>& half : sums) {
-      half.resize(rest / (2 * sets) / sizeof(glm::dvec3));
-      std::memcpy(half.data(), from, half.size() * sizeof(glm::dvec3));
-      from += half.size() * sizeof(glm::dvec3);
+    for (std::vector<glm::vec3>& half : sums) {
+      half.resize(rest / (2 * sets) / sizeof(glm::vec3));
+      std::memcpy(half.data(), from, half.size() * sizeof(glm::vec3));
+      from += half.size() * sizeof(glm::vec3);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
+#include "engine/tracer/pilot.h"
 #include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/shader_variant.h"
 #include "engine/tracer/stratified_points.h"
@@ -57,6 +58,7 @@ struct Tracer::State {
       without.sampler = Sampler::bsdf;
       trace_without = context.programs().get("passes/trace.comp",
                                              joined(shader_defines(without, buffers.features()), more));
+      pilot.emplace(scene.camera, settings, buffers.features(), &table->cells(), context.programs());
     }
     const gpu::Parameters parameters =
         make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
@@ -104,6 +106,8 @@ struct Tracer::State {
     context.finish();
   }
 
+  float weight(std::uint32_t frame) const { return frame_weight(frame, settings, trial); }
+
   void place_points(gpu::Program& program) const {
     if (settings.random != RandomNumbers::sobol) return;
     const SequencePlace place = sequence_place(frames, settings, schedule, trial);
@@ -111,9 +115,13 @@ struct Tracer::State {
                                                         settings.stratified_events));
   }
 
-  void look() {
-    trial.look({frames, frame_weight(frames, settings), settings.width, film.half_sums(), film.counters()});
+  // Before the first frame.
+  void render_pilot() {
+    if (!pilot) return;
+    trial.look_at_pilot(pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); }));
   }
+
+  void look() { trial.look({frames, weight(frames), settings.width, film.half_sums(), film.counters()}); }
 
   void keep_busy() {
     const auto [x, y] = groups();
@@ -134,6 +142,7 @@ struct Tracer::State {
   std::shared_ptr<gpu::Program> trace;
   std::shared_ptr<gpu::Program> trace_without;  // null where no trial is wanted
   std::optional<QTable> table;
+  std::optional<Pilot> pilot;  // where a trial is wanted
   std::vector<std::string> warnings;
   std::uint32_t frames = 0;
   bool learning = true;
@@ -158,8 +167,12 @@ void Tracer::set_firefly_thresholds(std::span<const float> thresholds) {
 
 void Tracer::render_frame() {
   State& s = *state_;
-  ++s.frames;
   s.bind();
+  if (s.frames == 0) {
+    s.render_pilot();
+    s.bind();
+  }
+  ++s.frames;
   s.film.start_frame();
   gpu::Program& trace = s.trial.is_without(s.frames) ? *s.trace_without : *s.trace;
   trace.set_frame(s.frames);
@@ -167,14 +180,18 @@ void Tracer::render_frame() {
   s.place_points(trace);
   const auto [x, y] = s.groups();
   trace.dispatch(x, y);
-  s.film.accumulate(s.frames, frame_weight(s.frames, s.settings));
+  s.film.accumulate(s.frames, s.weight(s.frames));
   if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
   if (s.trial.looks_after(s.frames)) s.look();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
 
-FrameCounters Tracer::last_frame_counters() const { return state_->film.counters(); }
+FrameCounters Tracer::last_frame_counters() const {
+  FrameCounters counters = state_->film.counters();
+  if (state_->pilot && state_->frames == 1) counters += state_->pilot->counters();
+  return counters;
+}
 
 std::vector<NonFiniteSample> Tracer::non_finite_samples() const { return state_->film.non_finite_samples(); }
 
@@ -210,8 +227,7 @@ void Tracer::restore(const TracerState& saved) {
     buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
   }
   state_->frames = saved.frames;
-  state_->film.count_all(saved.frames,
-                         [&](std::uint32_t frame) { return frame_weight(frame, state_->settings); });
+  state_->film.count_all(saved.frames, [&](std::uint32_t frame) { return state_->weight(frame); });
 }
 
 FirstHitImage Tracer::first_hit() const {
@@ -252,7 +268,7 @@ std::uint64_t Tracer::cells() const { return state_->table ? state_->table->cell
 
 std::uint64_t Tracer::device_bytes() const {
   return state_->buffers.bytes() + state_->film.bytes() + state_->parameter_block.bytes() +
-         (state_->table ? state_->table->bytes() : 0);
+         (state_->table ? state_->table->bytes() : 0) + (state_->pilot ? state_->pilot->bytes() : 0);
 }
 
 }  // namespace qtrace

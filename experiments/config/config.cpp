@@ -91,10 +91,9 @@ void check_random_numbers(const RenderSettings& render, const Expectation& expec
   check(render.replicates == 1 || render.replicates % 2 == 0,
         "key 'replicates' is {} but must be 1 or even: odd and even frames belong to different ones",
         render.replicates);
-  check(render.rl.trial_frames % 4 == 0,
-        "key 'rl.trial_frames' is {} but must be a multiple of 4: a round of the trial has two halves, and "
-        "each half "
-        "frames with and without the table",
+  check(render.rl.trial_frames % 2 == 0,
+        "key 'rl.trial_frames' is {} but must be even: every quarter of a round of the trial has frames with "
+        "and without the table",
         render.rl.trial_frames);
   check(expect.against == Against::nothing || render.random == RandomNumbers::independent ||
             render.replicates >= kFewestReplicates,

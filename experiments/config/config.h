@@ -41,7 +41,7 @@ struct KnobType<SnapshotPlan> {
 // It stays fixed, as a choice by a pilot would make the hash depend on a rendering; nee and lights change it.
 struct ReferenceSettings {
   int frames = 1024;
-  RandomNumbers random = RandomNumbers::independent;
+  RandomNumbers random = RandomNumbers::sobol;
   double relative_error = 0;
   int max_frames = 16384;
   std::uint32_t seed = 9001;

@@ -19,19 +19,7 @@ std::vector<double> RunRecord::gpu_ms() const { return counted(frames, &FrameRec
 
 FrameCounters RunRecord::totals() const {
   FrameCounters total;
-  for (const FrameRecord& frame : frames) {
-    total.paths += frame.counters.paths;
-    total.rays += frame.counters.rays;
-    total.path_segments += frame.counters.path_segments;
-    total.zero_paths += frame.counters.zero_paths;
-    total.cell_lookups += frame.counters.cell_lookups;
-    total.cell_fallbacks += frame.counters.cell_fallbacks;
-    total.non_finite += frame.counters.non_finite;
-    total.table_updates += frame.counters.table_updates;
-    total.saturated_updates += frame.counters.saturated_updates;
-    total.fireflies += frame.counters.fireflies;
-    total.clamped_samples += frame.counters.clamped_samples;
-  }
+  for (const FrameRecord& frame : frames) total += frame.counters;
   return total;
 }
 

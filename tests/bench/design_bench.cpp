@@ -74,6 +74,7 @@ const std::vector<experiments::Column<Row>>& columns() {
 
 RenderSettings plain_settings(int size) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = size;
   settings.max_bounces = settings.russian_roulette_start = kBounces;
   settings.sampler = Sampler::bsdf;

@@ -118,6 +118,7 @@ TEST_F(HardCases, TableEntriesAtBothEndsOfTheirRangeKeepTheImage) {
   constexpr float kAlbedo = 0.5F;
   const Scene scene = furnace_box(kAlbedo, 1);
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.rl = goswami_table();
   settings.width = settings.height = 32;
   settings.max_bounces = 3;

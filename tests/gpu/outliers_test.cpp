@@ -16,6 +16,7 @@ constexpr int kFrames = 3;
 
 RenderSettings emission_alone() {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = kSize;
   settings.max_bounces = 0;
   settings.sampler = Sampler::bsdf;

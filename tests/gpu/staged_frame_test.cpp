@@ -13,6 +13,7 @@ namespace {
 TEST(StagedFrame, RendersTheTracersImageInEveryForm) {
   const Scene scene = load_gltf(QTRACE_SOURCE_DIR "/configs/scenes/occluded.glb");
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = 24;
   settings.sampler = Sampler::rl;
   settings.nee = Nee::one_ray;

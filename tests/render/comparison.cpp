@@ -13,6 +13,7 @@ namespace qtrace::test {
 
 RenderSettings base_settings(std::uint32_t seed) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.rl = goswami_table();
   settings.width = settings.height = kSize;
   settings.max_bounces = 4;

@@ -18,6 +18,7 @@ constexpr double kTolerance = 0.005;
 
 RenderSettings furnace_settings(int max_bounces) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = kSize;
   settings.max_bounces = max_bounces;
   settings.seed = 11;

@@ -20,6 +20,7 @@ constexpr int kSize = 64;  // of hemispheres
 
 RenderSettings small_settings(int max_bounces = 3) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.rl = goswami_table();
   settings.width = settings.height = 24;
   settings.max_bounces = settings.russian_roulette_start = max_bounces;

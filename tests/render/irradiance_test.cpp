@@ -14,6 +14,7 @@ constexpr int kSize = 16;
 
 RenderSettings direct_light_settings() {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = kSize;
   settings.max_bounces = 1;
   settings.seed = 5;

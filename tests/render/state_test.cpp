@@ -48,7 +48,7 @@ TEST(State, GoesOnThroughATrialOfTheTable) {
   settings.rl.trial_frames = 4;
   Tracer whole(device(), scene, settings);
   std::vector<Tracer> states;
-  for (const int frames : {3, 2, 2, 12}) {
+  for (const int frames : {3, 14, 3, 5, 7}) {
     render(whole, frames);
     Tracer later(device(), scene, settings);
     later.restore(whole.state());

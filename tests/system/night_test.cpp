@@ -77,7 +77,7 @@ TEST_F(Night, StatusTellsFromAnotherShell) {
   EXPECT_TRUE(contains(after.out, "nobody is at work")) << after.out;
   EXPECT_TRUE(contains(after.out, "1 cut off")) << after.out;
   EXPECT_EQ(qtrace({"status", "nowhere"}).exit_code, 1);
-  EXPECT_TRUE(contains(folder_.read("results/busy/log.txt"), "reference of scene: 8 frames rendered"));
+  EXPECT_TRUE(contains(folder_.read("results/busy/log.txt"), "reference of scene: 16 frames rendered"));
 }
 
 TEST_F(Night, ARunDoneAgainHasTheSameBitsOrSaysWhatDiffers) {

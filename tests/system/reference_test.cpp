@@ -25,7 +25,7 @@ class ReferenceProgram : public testing::Test {
   }
 
   std::vector<std::string> arguments(const std::string& out, const std::vector<std::string>& sets) const {
-    std::vector<std::string> all{"run", "c.json", "--out", out};
+    std::vector<std::string> all{"run", "c.json", "--out", out, "--set", "reference.random=independent"};
     for (const std::string& set : sets) all.insert(all.end(), {"--set", "reference." + set});
     return all;
   }
@@ -100,7 +100,8 @@ TEST_F(ReferenceProgram, AKilledRenderGoesOnWithTheSameBits) {
   const std::uint32_t frames = experiments::read_state(folder_ / state("a")).state.frames;
   ASSERT_GT(frames, 0U);
   const std::string wish = fmt::format("frames={}", frames + 5);
-  const Outcome dry = run_qtrace({"run", "c.json", "--out", "a", "--dry-run"}, folder_.path());
+  const Outcome dry = run_qtrace(
+      {"run", "c.json", "--out", "a", "--dry-run", "--set", "reference.random=independent"}, folder_.path());
   EXPECT_TRUE(contains(dry.out, fmt::format("8 frames, to be extended from {} frames", frames))) << dry.out;
   const Outcome resumed = run("a", {wish});
   EXPECT_TRUE(contains(resumed.err, fmt::format(" 5 frames rendered after {} earlier ones", frames)))

@@ -31,7 +31,7 @@ class Verdicts : public testing::Test {
 TEST_F(Verdicts, AFailedExpectationIsTheExitCode) {
   const Outcome outcome = run(
       "judged",
-      R"("sampler": "bsdf", "nee": "one_ray", "expect.note": "two claims", "expect.tolerance": 0.5, "sweep": [{"claim": {
+      R"("random": "independent", "sampler": "bsdf", "nee": "one_ray", "expect.note": "two claims", "expect.tolerance": 0.5, "sweep": [{"claim": {
       "right": {"expect.against": "reference"},
       "wrong": {"expect.against": "mean", "expect.mean": 1000},
       "none": {}}}], )");
@@ -56,7 +56,7 @@ TEST_F(Verdicts, AFailedExpectationIsTheExitCode) {
 TEST_F(Verdicts, MetExpectationsEndWell) {
   EXPECT_EQ(
       run("good",
-          R"("sampler": "bsdf", "nee": "one_ray", "expect": {"against": "reference", "tolerance": 0.5}, )")
+          R"("random": "independent", "sampler": "bsdf", "nee": "one_ray", "expect": {"against": "reference", "tolerance": 0.5}, )")
           .exit_code,
       0);
   const Outcome plain = run("plain", "");
@@ -67,12 +67,13 @@ TEST_F(Verdicts, MetExpectationsEndWell) {
 // The dark room does not look like the lit one.
 TEST_F(Verdicts, AReferenceCanShowAnotherScene) {
   const Outcome outcome = run(
-      "shown", R"("sampler": "bsdf", "nee": "one_ray", "expect": {"against": "reference", "tolerance": 0.5},
+      "shown",
+      R"("random": "independent", "sampler": "bsdf", "nee": "one_ray", "expect": {"against": "reference", "tolerance": 0.5},
       "sweep": [{"shown": {"itself": {}, "the dark one": {"reference.scene": "dark.gltf"}}}], )");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(contains(outcome.err, "shown=itself: finished")) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "verdict fail")) << outcome.err;
-  EXPECT_TRUE(contains(outcome.err, "reference of dark: 8 frames rendered")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "reference of dark: 16 frames rendered")) << outcome.err;
   const auto hash = [&](const std::string& label) {
     return parse_json(folder_.read("results/shown/shown=" + label + "/manifest.json"))
         .at("reference")

@@ -16,6 +16,7 @@ constexpr std::uint32_t kRoomForAll = 1U << 29;
 
 LearningSchedule schedule(int teach_frames, double update_growth) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.rl.teach_frames = teach_frames;
   settings.rl.update_growth = update_growth;
   return {settings, kRoomForAll};
@@ -84,6 +85,7 @@ TEST(LearningSchedule, NeverWaitsLongerThanASumCanHold) {
 // with 300 events not once.
 TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
   RenderSettings settings;
+  settings.random = RandomNumbers::independent;
   settings.width = settings.height = 128;
   settings.max_bounces = 8;
   EXPECT_GT(most_taught_frames(settings), kMostFramesPerUpdate);
@@ -95,7 +97,7 @@ TEST(LearningSchedule, WaitsShorterWhereAFrameTeachesMore) {
   EXPECT_EQ(most_taught_frames(settings), 4U);
   settings.max_bounces = 300;
   EXPECT_EQ(most_taught_frames(settings), 0U);
-  const std::vector<std::uint32_t> updates = updates_of(LearningSchedule(RenderSettings{}, 4), 100, 199);
+  const std::vector<std::uint32_t> updates = updates_of(LearningSchedule(settings, 4), 100, 199);
   EXPECT_EQ(updates.size(), 25U);
   for (std::size_t i = 1; i < updates.size(); ++i) EXPECT_EQ(updates[i] - updates[i - 1], 4U);
 }

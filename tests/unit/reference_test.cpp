@@ -15,6 +15,7 @@ namespace {
 
 RunConfig small_config() {
   RunConfig config;
+  config.reference.random = RandomNumbers::independent;
   config.render.width = 2;
   config.render.height = 1;
   config.reference.frames = 4;

@@ -1,0 +1,80 @@
+#include "engine/tracer/pilot.h"
+
+#include "engine/gpu/structs.h"
+#include "engine/tracer/parameters.h"
+#include "engine/tracer/sample_sequence.h"
+#include "engine/tracer/sobol.h"
+#include "engine/tracer/stratified_points.h"
+#include "engine/tracer/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qtrace {
+namespace {
+
+// Of the image's width and height, at most.
+constexpr double kLargestScale = 0.5;
+// What suffices to teach a table and to tell what it is worth, however large the image is.
+constexpr double kMostPixels = 128 * 128;
+// Its frames count from 1, as the image's do, so their random numbers need a seed of their own.
+constexpr std::uint32_t kSeed = 0x70696c6f;
+
+RenderSettings pilot_settings(RenderSettings settings) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  const double scale = std::min(kLargestScale, std::sqrt(kMostPixels / pixels));
+  const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
+  settings.width = scaled(settings.width);
+  settings.height = scaled(settings.height);
+  settings.clamp_radiance = 0;
+  settings.seed = mixed(settings.seed ^ kSeed);
+  return settings;
+}
+
+}  // namespace
+
+Pilot::Pilot(const Camera& camera, const RenderSettings& settings, const gpu::SceneFeatures& features,
+             const CellBuffers* cells, gpu::ProgramCache& programs)
+    : settings_(pilot_settings(settings)),
+      film_(settings_.width, settings_.height, 1, programs),
+      parameter_block_("parameters of the pilot", sizeof(gpu::Parameters)) {
+  const gpu::Parameters parameters = make_parameters(camera, settings_, features, cells);
+  parameter_block_.write(0, &parameters, sizeof(parameters));
+}
+
+TableTrial::PilotLook Pilot::render(const Shaders& shaders, const TableTrial& trial, bool teaches,
+                                    const std::function<void()>& learn) {
+  parameter_block_.bind_uniform(gpu::BINDING_PARAMETERS);
+  film_.bind();
+  film_.reset();
+  counters_ = {};
+  TableTrial::PilotLook seen;
+  seen.width = settings_.width;
+  for (std::uint32_t frame = 1; frame <= trial.pilot_frames(); ++frame) {
+    const bool is_lesson = frame <= trial.pilot_lessons();
+    if (frame == trial.pilot_lessons() + 1) film_.reset();
+    const std::size_t kind = trial.pilot_is_without(frame) ? 0 : 1;
+    render_frame(kind == 0 ? shaders.without : shaders.with_table, frame, pilot_place(frame, trial),
+                 is_lesson && teaches);
+    if (is_lesson && teaches) learn();
+    seen.counters[kind] = film_.counters();
+    counters_ += seen.counters[kind];
+    if (trial.looks_after_pilot(frame)) seen.sums.push_back(film_.half_sums());
+  }
+  seen.kinds = film_.halves();
+  return seen;
+}
+
+void Pilot::render_frame(gpu::Program& shader, std::uint32_t frame, const SequencePlace& place,
+                         bool teaches) {
+  film_.start_frame();
+  shader.set_frame(frame);
+  shader.set_teaches(teaches);
+  if (settings_.random == RandomNumbers::sobol)
+    shader.set_point(place.sequence, stratified_points(settings_.seed, place.sequence, place.index,
+                                                       settings_.stratified_events));
+  shader.dispatch(tiles(settings_.width), tiles(settings_.height));
+  film_.accumulate(frame);
+}
+
+}  // namespace qtrace
