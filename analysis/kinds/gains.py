@@ -1,6 +1,8 @@
 """How every configuration compares with the config's baseline: a line per scene, a point per method, from `ratios.csv`. At
-the left the baseline's relMSE over the configuration's after as many samples, in the middle that of relMSE × seconds, at
-the right how much sooner the configuration has the MSE that the baseline ends with. Right of 1 it is better."""
+the left the baseline's relMSE over the configuration's after as many samples, in the middle the same after as many seconds,
+at the right how much sooner the configuration has the MSE that the baseline ends with. Right of 1 it is better. Results of
+programs that did not compare errors after equal seconds have relMSE × seconds in the middle, which is the same for errors
+that fall as 1/seconds."""
 
 from __future__ import annotations
 
@@ -17,16 +19,26 @@ from analysis.command import MissingError, check_one_of
 from analysis.kinds.request import Drawing, Request
 from analysis.load import Results
 
-PANELS = {"ratio_relmse": "relMSE at equal samples", "ratio_relmse_x_s": "relMSE × s (learning included)",
+AT_EQUAL_SECONDS = "ratio_equal_s_relmse_corrected"
+PANELS = {"ratio_relmse": "relMSE at equal samples", AT_EQUAL_SECONDS: "relMSE at equal seconds (learning included)",
           "ratio_time_to_mse": "time to the baseline's MSE"}
+EARLIER = {"ratio_relmse_x_s": "relMSE × s (learning included)"}  # in place of AT_EQUAL_SECONDS
 SPREAD = 0.5  # of a scene's line, over which its methods are laid out
+
+
+def panels(gains: pd.DataFrame) -> dict[str, str]:
+    """Columns that are drawn, and what they are called."""
+    if AT_EQUAL_SECONDS in gains:
+        return PANELS
+    left, _, right = PANELS.items()
+    return dict([left, *EARLIER.items(), right])
 
 
 def read_gains(results: Results, methods: list[str]) -> pd.DataFrame:
     """The rows of ratios.csv with their `method`, and the scene as the sweep calls it, which may be a label. `methods`:
     which; empty: all."""
     ratios = results.ratios
-    missing = [f"{column}{end}" for column in PANELS for end in ("", "_low", "_high") if f"{column}{end}" not in ratios]
+    missing = [f"{column}{end}" for column in panels(ratios) for end in ("", "_low", "_high") if f"{column}{end}" not in ratios]
     if missing:
         raise MissingError(f"{results.folder}: its ratios.csv has no column '{missing[0]}'")
     summary = results.summary
@@ -65,7 +77,7 @@ def gain_figure(gains: pd.DataFrame, name: str, look: style.Look = style.SCREEN)
             figure.supxlabel("Bars: 95 % confidence interval over seeds. No point: the baseline's MSE was never reached.",
                              fontsize=look.note_size, color="0.25")
         row = figure.subplots(1, len(PANELS), sharey=True)
-        for axes, (column, label) in zip(row, PANELS.items()):
+        for axes, (column, label) in zip(row, panels(gains).items()):
             _draw(axes, gains, column)
             axes.set_xlabel(label)
         row[0].set_yticks(np.arange(len(scenes)), scenes)

@@ -20,7 +20,7 @@ TIMES = ("host_ms_median", "gpu_ms_median", "elapsed_s")
 PRODUCT = "relmse_x_s"
 READ = ("host_ms_median", "mse", "relmse", "flip", PRODUCT)
 # Of ratios.csv.
-READ_RATIOS = ("ratio_host_ms_median", "ratio_relmse", "ratio_relmse_x_s", "ratio_time_to_relmse")
+READ_RATIOS = ("ratio_host_ms_median", "ratio_relmse", "ratio_relmse_x_s", "ratio_equal_s_relmse_corrected", "ratio_time_to_relmse")
 
 
 def _figures(results: Results) -> dict[str, str]:
@@ -33,8 +33,10 @@ def _ratio_heading(results: Results, name: str) -> str:
     """Of a column of ratios.csv; empty where it is not read."""
     if name not in READ_RATIOS:
         return ""
-    figure = name.removeprefix("ratio_").removeprefix("time_to_")
+    figure = name.removeprefix("ratio_").removeprefix("time_to_").removeprefix("equal_s_")
     label = results.metrics[figure].label if figure in results.metrics else figure
+    if name.startswith("ratio_equal_s_"):
+        return f"{label} at equal seconds"
     return f"time to its {label}" if name.startswith("ratio_time_to_") else label
 
 

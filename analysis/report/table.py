@@ -56,6 +56,7 @@ FIGURES = {
 }
 RATIOS = {
     "ratio_relmse_x_s": ("efficiency gain", "The baseline's relMSE × s divided by this configuration's; above 1, this one is better than the baseline"),
+    "ratio_equal_s_relmse_corrected": ("gain at equal seconds", "The baseline's relMSE divided by this configuration's after the same seconds, those of whichever ends first, without the reference's noise; above 1, this one is better"),
     "ratio_time_to_relmse": ("time gain", "The baseline's time to its own final relMSE divided by this configuration's; – where it was never reached"),
 }
 STRIPS = ("host_ms_median", "relmse", "relmse_x_s")  # drawn on a scale besides

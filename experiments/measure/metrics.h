@@ -82,6 +82,7 @@ struct Metric {
   bool is_averaged = false;  // over the seeds of a configuration
   bool is_compared = false;  // with a baseline's
   bool is_followed = false;  // over a run's snapshots: slope, and time to the baseline's
+  bool is_timed = false;     // compared with the baseline's after the same seconds
   bool is_of_image = true;   // else of the reference alone
   HeatScaling heat = HeatScaling::none;
   Map map = nullptr;  // null where single pixels have no such error

@@ -64,4 +64,15 @@ std::optional<double> time_to_error(const Curve& curve, double target) {
   return before.seconds * std::pow(reached->seconds / before.seconds, share);
 }
 
+std::optional<double> error_after(const Curve& curve, double seconds) {
+  const auto next =
+      std::ranges::find_if(curve, [seconds](const CurvePoint& point) { return point.seconds >= seconds; });
+  if (next == curve.end() || !(next->error > 0)) return std::nullopt;
+  if (next->seconds == seconds) return next->error;
+  if (next == curve.begin() || !(std::prev(next)->error > 0)) return std::nullopt;
+  const CurvePoint& before = *std::prev(next);
+  const double share = std::log(seconds / before.seconds) / std::log(next->seconds / before.seconds);
+  return before.error * std::pow(next->error / before.error, share);
+}
+
 }  // namespace qtrace::experiments

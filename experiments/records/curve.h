@@ -32,4 +32,8 @@ std::optional<double> loglog_slope(const Curve& curve);
 // which nothing was measured.
 std::optional<double> time_to_error(const Curve& curve, double target);
 
+// The error after so many seconds, between two points linearly in the logarithms. Nothing before the first
+// point, after the last one, or where one of the two has no positive error.
+std::optional<double> error_after(const Curve& curve, double seconds);
+
 }  // namespace qtrace::experiments

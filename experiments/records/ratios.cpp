@@ -70,17 +70,28 @@ std::optional<std::vector<double>> leave_one_out(std::size_t seeds, Without with
   return values.empty() ? std::nullopt : std::optional(values);
 }
 
-std::optional<Interval> time_ratio(const std::vector<Curve>& baseline,
-                                   const std::vector<Curve>& configuration) {
+// log(the baseline's error / the configuration's) after the seconds of whichever ends first, both mean
+// curves.
+std::optional<double> log_error_ratio(const Curve& baseline, const Curve& configuration) {
+  if (baseline.empty() || configuration.empty()) return std::nullopt;
+  const double seconds = std::min(baseline.back().seconds, configuration.back().seconds);
+  const auto above = error_after(baseline, seconds);
+  const auto below = error_after(configuration, seconds);
+  return above && below ? std::optional(std::log(*above / *below)) : std::nullopt;
+}
+
+// Of two mean curves, whose logarithm of a ratio `log_ratio` gives.
+std::optional<Interval> curve_ratio(const std::vector<Curve>& baseline,
+                                    const std::vector<Curve>& configuration,
+                                    std::optional<double> (*log_ratio)(const Curve&, const Curve&)) {
   const Curve baseline_mean = mean_curve(baseline);
   const Curve configuration_mean = mean_curve(configuration);
-  const auto value = log_time_ratio(baseline_mean, configuration_mean);
+  const auto value = log_ratio(baseline_mean, configuration_mean);
   if (!value) return std::nullopt;
-  const auto above = leave_one_out(baseline.size(), [&](std::size_t i) {
-    return log_time_ratio(mean_curve(baseline, i), configuration_mean);
-  });
+  const auto above = leave_one_out(
+      baseline.size(), [&](std::size_t i) { return log_ratio(mean_curve(baseline, i), configuration_mean); });
   const auto below = leave_one_out(configuration.size(), [&](std::size_t i) {
-    return log_time_ratio(baseline_mean, mean_curve(configuration, i));
+    return log_ratio(baseline_mean, mean_curve(configuration, i));
   });
   return above && below ? jackknife(*value, *above, *below) : Interval{std::exp(*value), {}, {}};
 }
@@ -93,7 +104,7 @@ TimeToError compare_times(const Configuration& baseline, const Configuration& co
   if (baseline_curves.empty() || configuration_curves.empty()) return result;
   result.target = mean_curve(baseline_curves).back().error;
   result.time = time_to_error(configuration_curves, *result.target);
-  result.ratio = time_ratio(baseline_curves, configuration_curves);
+  result.ratio = curve_ratio(baseline_curves, configuration_curves, log_time_ratio);
   return result;
 }
 
@@ -118,6 +129,11 @@ const Configuration* baseline_of(const Experiment& experiment, const Configurati
 std::optional<Interval> Ratios::figure(const std::string& column) const {
   const auto found = figures.find(column);
   return found == figures.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<Interval> Ratios::at_equal_seconds(const std::string& metric) const {
+  const auto found = equal_seconds.find(metric);
+  return found == equal_seconds.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& below) {
@@ -147,7 +163,7 @@ std::vector<Ratios> baseline_ratios(const Experiment& experiment,
   for (const Configuration& configuration : configurations) {
     const Configuration* baseline = baseline_of(experiment, configuration, configurations);
     if (baseline == nullptr) continue;
-    Ratios row{configuration.name, baseline->name, configuration.scene, {}, {}};
+    Ratios row{configuration.name, baseline->name, configuration.scene, {}, {}, {}};
     for (const Figure& figure : run_figures()) {
       const auto above = baseline->figure(figure.column.name);
       const auto below = configuration.figure(figure.column.name);
@@ -156,6 +172,10 @@ std::vector<Ratios> baseline_ratios(const Experiment& experiment,
     }
     for (const Metric& metric : error_metrics()) {
       if (metric.is_followed) row.times[metric.name] = compare_times(*baseline, configuration, metric);
+      if (!metric.is_timed) continue;
+      const auto ratio =
+          curve_ratio(curves_of(*baseline, metric), curves_of(configuration, metric), log_error_ratio);
+      if (ratio) row.equal_seconds[metric.name] = *ratio;
     }
     rows.push_back(std::move(row));
   }

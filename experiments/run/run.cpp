@@ -230,16 +230,17 @@ void Execution::note_trial(const Tracer& tracer, Progress& progress) {
   const TableTrial& trial = tracer.trial();
   const auto& found = trial.finding();
   if (!found) return;
-  manifest_["table_trial"] = {{"gain", found->gain},        {"gain_error", found->gain_error},
-                              {"found", found->found},      {"work", found->work},
-                              {"frame", found->frame},      {"decided", trial.is_decided()},
-                              {"given_up", trial.gave_up()}};
+  manifest_["table_trial"] = {{"gain", found->gain},           {"gain_error", found->gain_error},
+                              {"found", found->found},         {"work", found->work},
+                              {"needed", found->needed},       {"frame", found->frame},
+                              {"decided", trial.is_decided()}, {"given_up", trial.gave_up()}};
   if (!trial.gave_up()) return;
   warn(
-      fmt::format(
-          "after frame {} directions went without the table: frames without it had {:.3g} times the error of "
-          "those with it, which take {:.3g} times the work (rl.trial_frames)",
-          found->frame, found->gain, found->work),
+      fmt::format("{} went without the table: frames without it had {:.3g} times the error of those with it, "
+                  "which take {:.3g} times the work, and {:.3g} times would pay for that (rl.trial_frames)",
+                  found->frame == 0 ? std::string("all frames")
+                                    : fmt::format("after frame {} directions", found->frame),
+                  found->gain, found->work, found->needed),
       progress);
 }
 

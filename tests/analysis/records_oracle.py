@@ -80,19 +80,31 @@ def jackknife(value: float, *left_out: Sequence[float]) -> Comparison:
     return welch(value, *sides)
 
 
-def time_ratio(baseline: Sequence[Curve], configuration: Sequence[Curve]) -> Comparison | None:
-    """The baseline's seconds over the configuration's until it has the baseline's last error; None where it never has."""
-
-    def log_ratio(above: Curve, below: Curve) -> float:
-        time = time_to_error(below, above[-1, 1])
-        return math.log(above[-1, 0] / time) if time > 0 else math.nan
-
+def curve_ratio(baseline: Sequence[Curve], configuration: Sequence[Curve],
+                log_ratio: Callable[[Curve, Curve], float]) -> Comparison | None:
+    """Of the mean curves of both sides; None where these have no ratio."""
     value = log_ratio(_mean(baseline), _mean(configuration))
     if math.isnan(value):
         return None
     return jackknife(value, [log_ratio(_mean(baseline, i), _mean(configuration)) for i in range(len(baseline))]
                      if len(baseline) > 1 else [],
                      [log_ratio(_mean(baseline), _mean(configuration, i)) for i in range(len(configuration))] if len(configuration) > 1 else [])
+
+
+def log_time_ratio(baseline: Curve, configuration: Curve) -> float:
+    """The baseline's seconds over the configuration's until it has the baseline's last error; NaN where it never has."""
+    time = time_to_error(configuration, baseline[-1, 1])
+    return math.log(baseline[-1, 0] / time) if time > 0 else math.nan
+
+
+def log_error_ratio(baseline: Curve, configuration: Curve) -> float:
+    """The baseline's error over the configuration's after the seconds of whichever ends first."""
+    log_seconds = math.log(min(baseline[-1, 0], configuration[-1, 0]))
+    if min(baseline[:, 1].min(), configuration[:, 1].min()) <= 0:
+        return math.nan
+    above, below = (float(np.interp(log_seconds, np.log(curve[:, 0]), np.log(curve[:, 1]), left=math.nan))
+                    for curve in (baseline, configuration))
+    return above - below
 
 
 def time_until(configuration: Sequence[Curve], target: float) -> Comparison | None:

@@ -14,7 +14,7 @@ from analysis.load import LoadError, load
 from analysis.metrics import errors
 from analysis.schema import SCHEMA
 from analysis.welch import ratio_of_means
-from records_oracle import ENDS, curves_of, figure_ends, slope, time_ratio, time_until
+from records_oracle import ENDS, curve_ratio, curves_of, figure_ends, log_error_ratio, log_time_ratio, slope, time_until
 
 BINARY = os.environ.get("QTRACE_BINARY")  # ctest sets it
 RATIO_FIGURES = ("host_ms_median", "gpu_ms_median", "mse", "relmse", "relmse_trimmed", "relmse_x_s")
@@ -93,12 +93,15 @@ class ConfigurationsTest(FolderTest):
             target = baseline[metric].mean()
             self.agree(row[f"target_{metric}"], target, 0, "target")
             expected[f"time_to_{metric}_s"] = time_until(sides[1], target)
-            expected[f"ratio_time_to_{metric}"] = time_ratio(*sides)
+            expected[f"ratio_time_to_{metric}"] = curve_ratio(*sides, log_time_ratio)
+            corrected = [curves_of(convergence[convergence.configuration == name], f"{metric}_corrected")
+                         for name in ("uniform", "bsdf")]
+            expected[f"ratio_equal_s_{metric}_corrected"] = curve_ratio(*corrected, log_error_ratio)
         for name, comparison in expected.items():
             self.assertIsNotNone(comparison, name)
             for end, value in (("", comparison.ratio), ("_low", comparison.low), ("_high", comparison.high)):
                 self.agree(row[name + end], value, 0, name + end)
-        self.assertGreater(self.compared, 2 + 3 * 8)
+        self.assertGreater(self.compared, 2 + 3 * 10)
         (self.results / "ratios.csv").unlink()
         with self.assertRaisesRegex(LoadError, "names no baseline"):
             load(self.results).ratios

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.container import ErrorbarContainer
 
 from analysis.figures import main
-from analysis.kinds.gains import PANELS, gain_figure, read_gains
+from analysis.kinds.gains import AT_EQUAL_SECONDS, PANELS, gain_figure, read_gains
 from analysis.load import load
 
 GAINS = {("simple", "RL"): 1.5, ("simple", "BSDF"): 0.25, ("occluded", "RL"): 3.0, ("occluded", "BSDF"): 0.5}
@@ -52,6 +52,14 @@ class GainFigureTest(FolderTest):
         self.assertEqual([list(panel) for panel in self.drawn("RL")], [["RL"]] * 3)
         code, _, err = self.run_script(main, self.results, "--only", "gains", "--method", "RL + NEE")
         self.assertEqual((code, err), (1, "error: gains: unknown method 'RL + NEE'; known are RL, BSDF\n"))
+
+    def test_results_of_earlier_programs(self) -> None:
+        """They have relMSE x seconds in place of errors after equal seconds."""
+        file = self.results / "ratios.csv"
+        file.write_text(file.read_text().replace(AT_EQUAL_SECONDS, "ratio_relmse_x_s"))
+        figure = gain_figure(read_gains(load(self.results), []), "study")
+        self.assertEqual([axes.get_xlabel() for axes in figure.axes],
+                         ["relMSE at equal samples", "relMSE × s (learning included)", "time to the baseline's MSE"])
 
     def test_a_picture(self) -> None:
         code, out, err = self.run_script(main, self.results, "--only", "gains", "--out", self.folder / "figures")

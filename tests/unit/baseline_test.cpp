@@ -31,6 +31,7 @@ RunRecord record(const std::string& scene, const std::string& method, const std:
     snapshot.elapsed_s = next.elapsed_s;
     snapshot.errors.mse = snapshot.errors.relmse = scale * (1 + 0.01 * seed) / frame;
     snapshot.errors.relmse_trimmed = snapshot.errors.relmse / 2;
+    snapshot.errors.reference = ReferenceNoise{};  // none
     result.snapshots.push_back(snapshot);
   }
   return result;
@@ -95,6 +96,10 @@ TEST(Baseline, RatiosAreTheBaselinesFigureOverTheConfigurations) {
   EXPECT_NEAR(fast.times.at("relmse").ratio->value, 4, 1e-12);
   EXPECT_LT(*fast.times.at("relmse").ratio->low, 4);
   EXPECT_GT(*fast.times.at("relmse").ratio->high, 4);
+  // NEE after half of its seconds, which are all of RL's: two of its frames.
+  EXPECT_NEAR(fast.at_equal_seconds("mse_corrected")->value, 4, 1e-12);
+  EXPECT_LT(*fast.at_equal_seconds("mse_corrected")->low, 4);
+  EXPECT_GT(*fast.at_equal_seconds("mse_corrected")->high, 4);
   EXPECT_FALSE(ratios.at(1).times.at("relmse").ratio.has_value());
   EXPECT_FALSE(ratios.at(1).times.at("relmse").time.has_value());
 }

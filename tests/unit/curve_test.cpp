@@ -41,6 +41,17 @@ TEST(Curve, TimesAreInterpolatedInLogarithms) {
   EXPECT_FALSE(time_to_error(curve, 9).has_value());     // before the first snapshot
 }
 
+TEST(Curve, ErrorAfterSomeSecondsIsReadBetweenPoints) {
+  const Curve curve{{1, 2, 8}, {2, 4, 2}, {4, 9, 1}};
+  EXPECT_EQ(error_after(curve, 4), 2);
+  EXPECT_NEAR(*error_after(curve, std::sqrt(8.0)), 4, 1e-12);  // halfway in both logarithms
+  EXPECT_NEAR(*error_after(curve, 6), std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(error_after(curve, 9), 1);
+  EXPECT_FALSE(error_after(curve, 1.9).has_value());  // before the first snapshot
+  EXPECT_FALSE(error_after(curve, 9.1).has_value());  // after the last one
+  EXPECT_FALSE(error_after({{1, 2, 8}, {2, 4, -1}}, 3).has_value()) << "less than the reference's noise";
+}
+
 TEST(Curve, TheMeanCanLeaveOneOut) {
   const std::vector<Curve> curves{power_curve(-1, 1), power_curve(-1, 2), power_curve(-1, 6)};
   EXPECT_DOUBLE_EQ(mean_curve(curves)[1].error, 1.5);
