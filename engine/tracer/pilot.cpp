@@ -1,11 +1,10 @@
 #include "engine/tracer/pilot.h"
 
 #include "engine/gpu/structs.h"
+#include "engine/tracer/frame.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/sobol.h"
-#include "engine/tracer/stratified_points.h"
-#include "engine/tracer/tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,8 +53,8 @@ TableTrial::PilotLook Pilot::render(const Shaders& shaders, const TableTrial& tr
     const bool is_lesson = frame <= trial.pilot_lessons();
     if (frame == trial.pilot_lessons() + 1) film_.reset();
     const std::size_t kind = trial.pilot_is_without(frame) ? 0 : 1;
-    render_frame(kind == 0 ? shaders.without : shaders.with_table, frame, pilot_place(frame, trial),
-                 is_lesson && teaches);
+    render_frame({.number = frame, .place = pilot_place(frame, trial), .teaches = is_lesson && teaches},
+                 settings_, kind == 0 ? shaders.without : shaders.with_table, film_);
     if (is_lesson && teaches) learn();
     seen.counters[kind] = film_.counters();
     counters_ += seen.counters[kind];
@@ -63,18 +62,6 @@ TableTrial::PilotLook Pilot::render(const Shaders& shaders, const TableTrial& tr
   }
   seen.kinds = film_.halves();
   return seen;
-}
-
-void Pilot::render_frame(gpu::Program& shader, std::uint32_t frame, const SequencePlace& place,
-                         bool teaches) {
-  film_.start_frame();
-  shader.set_frame(frame);
-  shader.set_teaches(teaches);
-  if (settings_.random == RandomNumbers::sobol)
-    shader.set_point(place.sequence, stratified_points(settings_.seed, place.sequence, place.index,
-                                                       settings_.stratified_events));
-  shader.dispatch(tiles(settings_.width), tiles(settings_.height));
-  film_.accumulate(frame);
 }
 
 }  // namespace qtrace

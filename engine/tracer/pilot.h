@@ -9,10 +9,8 @@
 #include "engine/scene/scene.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/film.h"
-#include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/table_trial.h"
 
-#include <cstdint>
 #include <functional>
 
 namespace qtrace {
@@ -27,8 +25,8 @@ class Pilot {
     gpu::Program& with_table;
     gpu::Program& without;
   };
-  // All its frames. Everything that the image's frames need must be bound and has to be bound again.
-  // `learn`: updates the table, after each frame. Waits for the work.
+  // All its frames. What the image's frames need must be bound, and has to be bound again. `teaches`: whether
+  // its lessons do; `learn` then updates the table after each. Waits for the work.
   TableTrial::PilotLook render(const Shaders& shaders, const TableTrial& trial, bool teaches,
                                const std::function<void()>& learn);
 
@@ -38,8 +36,6 @@ class Pilot {
   std::size_t bytes() const { return film_.bytes() + parameter_block_.bytes(); }
 
  private:
-  void render_frame(gpu::Program& shader, std::uint32_t frame, const SequencePlace& place, bool teaches);
-
   RenderSettings settings_;
   Film film_;
   gpu::Buffer parameter_block_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace qtrace {
 namespace {
@@ -28,18 +29,17 @@ constexpr double kSharp = 0.1;
 constexpr double kBlunt = 0.25;
 // What a gain in the pilot may lack, as the table has seen few paths by then.
 constexpr double kYoung = 0.9;
-// Between the square root of N (independent samples) and what smooth integrands allow, as an exponent of N in
-// the squared error.
+// By which power of N a squared error is believed to fall: N^-s, s = 1 for independent samples.
 constexpr double kLeastSlope = 1;
 constexpr double kMostSlope = 1.5;
+
+constexpr std::size_t kSavedNumbers = 10;
+constexpr std::size_t kMostSums = 4;  // of a round, before its end
 
 // Whether a gain is good for giving a table up, given the largest relative standard error for that.
 bool tells(const Gain& gain, double largest_error) {
   return std::abs(gain.found - 1) <= kFoundApart && gain.error <= largest_error * gain.value;
 }
-
-constexpr std::size_t kSavedNumbers = 10;
-constexpr std::size_t kMostSums = 4;  // of a round, before its end
 
 double work_of(const FrameCounters& counters) {
   return static_cast<double>(counters.rays) + kWorkPerLookup * static_cast<double>(counters.cell_lookups);
@@ -85,9 +85,10 @@ struct RoundSums {
 // falls as N^-s without the table, s > 1: fewer frames for the same work lose N^-s, not N^-1; and where the
 // sequence starts anew after 1, 2, 4, ... frames, the sum of these nets has the squared error
 // Σ L^(2-s) / N^2 = N^-s / (2^(2-s) - 1).
-double needed_gain(RandomNumbers random, double work, const RoundSums& sums, int width) {
+// `halves`: frames without the table, by the halves of `sums`.
+double needed_gain(RandomNumbers random, double work, const RoundSums& sums, TriedFrames halves, int width) {
   if (random == RandomNumbers::independent) return work;
-  const double ratio = gain_of({sums.quarters(0), sums.halves(0)}, width).value;
+  const double ratio = gain_of({sums.quarters(0), std::move(halves)}, width).value;
   const double slope = std::clamp(std::log2(ratio), kLeastSlope, kMostSlope);
   return std::pow(work, slope) / (std::exp2(2 - slope) - 1);
 }
@@ -120,9 +121,10 @@ void TableTrial::look_at_pilot(const PilotLook& seen) {
     if (random_ != RandomNumbers::independent) return sums.halves(kind);
     return TriedFrames{seen.kinds[kind].mean, seen.kinds[kind].variance};
   };
-  const Gain gain = gain_of({tried(0), tried(1)}, seen.width);
+  std::array<TriedFrames, 2> kinds{tried(0), tried(1)};
+  const Gain gain = gain_of(kinds, seen.width);
   const double work = work_of(seen.counters[1], work_of(seen.counters[0]));
-  const double needed = needed_gain(random_, work, sums, seen.width);
+  const double needed = needed_gain(random_, work, sums, std::move(kinds[0]), seen.width);
   finding_ = Finding{0, gain.value, gain.error, gain.found, work, needed};
   if (gain.value - kSure * gain.error >= needed) {
     verdict_ = Verdict::keep;
@@ -131,25 +133,23 @@ void TableTrial::look_at_pilot(const PilotLook& seen) {
   }
 }
 
-TableTrial::Round TableTrial::round(int number) const {
-  const std::uint32_t start = unit_ * kRoundStarts[static_cast<std::size_t>(number)];
-  const std::uint32_t length = unit_ * kRoundLength;
-  return {start, start + length / 4, start + length / 2, start + length / 4 * 3, start + length};
+std::array<TableTrial::Round, 2> TableTrial::rounds() const {
+  const auto round = [this](std::uint32_t start) {
+    const std::uint32_t begin = unit_ * start;
+    const std::uint32_t quarter = unit_ * kRoundLength / 4;
+    return Round{begin, begin + quarter, begin + 2 * quarter, begin + 3 * quarter, begin + 4 * quarter};
+  };
+  return {round(kRoundStarts[0]), round(kRoundStarts[1])};
 }
 
 bool TableTrial::takes_place(const Round& round) const {
   return is_wanted() && (!is_decided() || round.end <= finding_->frame);
 }
 
-std::optional<TableTrial::Round> TableTrial::round_of(std::uint32_t frame) const {
-  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
-    const Round r = round(number);
-    if (takes_place(r) && frame > r.begin && frame <= r.end) return r;
-  }
-  return std::nullopt;
+bool TableTrial::is_tried(std::uint32_t frame) const {
+  return std::ranges::any_of(
+      rounds(), [&](const Round& r) { return takes_place(r) && frame > r.begin && frame <= r.end; });
 }
-
-bool TableTrial::is_tried(std::uint32_t frame) const { return round_of(frame).has_value(); }
 
 bool TableTrial::is_without(std::uint32_t frame) const {
   if (gave_up() && frame > finding_->frame) return true;
@@ -158,8 +158,7 @@ bool TableTrial::is_without(std::uint32_t frame) const {
 
 std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
   std::uint32_t last = 0;
-  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
-    const Round r = round(number);
+  for (const Round& r : rounds()) {
     if (!takes_place(r)) continue;
     for (const std::uint32_t boundary : {r.begin, r.middle, r.end}) {
       if (boundary <= frame) last = std::max(last, boundary);
@@ -170,8 +169,7 @@ std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
 
 bool TableTrial::looks_after(std::uint32_t frame) const {
   if (!is_wanted() || is_decided()) return false;
-  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
-    const Round r = round(number);
+  for (const Round& r : rounds()) {
     for (const std::uint32_t wanted : {r.begin, r.quarter, r.middle, r.three_quarters, r.end - 1, r.end}) {
       if (frame == wanted) return true;
     }
@@ -180,12 +178,11 @@ bool TableTrial::looks_after(std::uint32_t frame) const {
 }
 
 void TableTrial::look(const Look& seen) {
-  for (int number = 0; number < static_cast<int>(kRoundStarts.size()); ++number) {
-    const Round r = round(number);
+  for (const Round& r : rounds()) {
     if (seen.frame == r.begin) sums_.clear();
     if (seen.frame == r.end - 1) work_without_ = work_of(seen.counters);
     if (seen.frame == r.end) {
-      conclude(r, number + 1 == static_cast<int>(kRoundStarts.size()), seen);
+      conclude(r, r.end == rounds().back().end, seen);
     } else if (seen.frame >= r.begin && seen.frame < r.end - 1) {
       sums_.push_back(seen.sums);
     }
@@ -196,9 +193,10 @@ void TableTrial::conclude(const Round& round, bool is_last, const Look& last) {
   check(sums_.size() == kMostSums, "the trial of the table has not seen the frames before {}", last.frame);
   const double samples = static_cast<double>(round.end - round.begin) / 4 * last.weight;
   const RoundSums sums{sums_[0], sums_[1], sums_[2], sums_[3], last.sums, samples};
-  const Gain gain = gain_of({sums.halves(0), sums.halves(1)}, last.width);
+  std::array<TriedFrames, 2> kinds{sums.halves(0), sums.halves(1)};
+  const Gain gain = gain_of(kinds, last.width);
   const double work = work_of(last.counters, work_without_);
-  const double needed = needed_gain(random_, work, sums, last.width);
+  const double needed = needed_gain(random_, work, sums, std::move(kinds[0]), last.width);
   finding_ = Finding{last.frame, gain.value, gain.error, gain.found, work, needed};
   sums_.clear();
   const double most = gain.value + kSure * gain.error;

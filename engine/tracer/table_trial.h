@@ -73,7 +73,7 @@ class TableTrial {
     double gain = 1;          // error without the table over that with it, for the same number of frames
     double gain_error = 0;    // its standard error
     double found = 1;   // of the radiance that frames with the table found, what those without it did: far
-                        // below 1 they miss light, and their error says nothing
+                        // from 1 one of them misses light, and its error says nothing
     double work = 1;    // of a frame with the table over that of one without it
     double needed = 1;  // the gain from which on the table pays
   };
@@ -87,12 +87,11 @@ class TableTrial {
 
  private:
   enum class Verdict : std::uint32_t { open, keep, give_up };
-  // Frames after which a round begins, has two quarters, ends and so on; replicates are its halves.
+  // A round by the frames of the image after which its quarters begin and end. Its halves are replicates.
   struct Round {
     std::uint32_t begin, quarter, middle, three_quarters, end;
   };
-  Round round(int number) const;
-  std::optional<Round> round_of(std::uint32_t frame) const;  // that takes place
+  std::array<Round, 2> rounds() const;
   bool takes_place(const Round& round) const;
   void conclude(const Round& round, bool is_last, const Look& last);
 

@@ -5,13 +5,13 @@
 #include "engine/device_scene/scene_buffers.h"
 #include "engine/gpu/structs.h"
 #include "engine/tracer/film.h"
+#include "engine/tracer/frame.h"
 #include "engine/tracer/learning_schedule.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/pilot.h"
 #include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/shader_variant.h"
-#include "engine/tracer/stratified_points.h"
 #include "engine/tracer/table_trial.h"
 #include "engine/tracer/tiles.h"
 
@@ -108,16 +108,10 @@ struct Tracer::State {
 
   float weight(std::uint32_t frame) const { return frame_weight(frame, settings, trial); }
 
-  void place_points(gpu::Program& program) const {
-    if (settings.random != RandomNumbers::sobol) return;
-    const SequencePlace place = sequence_place(frames, settings, schedule, trial);
-    program.set_point(place.sequence, stratified_points(settings.seed, place.sequence, place.index,
-                                                        settings.stratified_events));
-  }
-
   // Before the first frame.
   void render_pilot() {
     if (!pilot) return;
+    bind();
     trial.look_at_pilot(pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); }));
   }
 
@@ -167,20 +161,14 @@ void Tracer::set_firefly_thresholds(std::span<const float> thresholds) {
 
 void Tracer::render_frame() {
   State& s = *state_;
-  s.bind();
-  if (s.frames == 0) {
-    s.render_pilot();
-    s.bind();
-  }
+  if (s.frames == 0) s.render_pilot();
   ++s.frames;
-  s.film.start_frame();
-  gpu::Program& trace = s.trial.is_without(s.frames) ? *s.trace_without : *s.trace;
-  trace.set_frame(s.frames);
-  trace.set_teaches(s.learning && s.schedule.teaches(s.frames));
-  s.place_points(trace);
-  const auto [x, y] = s.groups();
-  trace.dispatch(x, y);
-  s.film.accumulate(s.frames, s.weight(s.frames));
+  s.bind();
+  const Frame frame{.number = s.frames,
+                    .place = sequence_place(s.frames, s.settings, s.schedule, s.trial),
+                    .teaches = s.learning && s.schedule.teaches(s.frames),
+                    .weight = s.weight(s.frames)};
+  qtrace::render_frame(frame, s.settings, s.trial.is_without(s.frames) ? *s.trace_without : *s.trace, s.film);
   if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
   if (s.trial.looks_after(s.frames)) s.look();
 }

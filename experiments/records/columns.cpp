@@ -209,7 +209,7 @@ std::vector<Column<Ratios>> ratio_columns() {
     if (metric.is_followed) add_time_to_error(columns, metric.name);
     if (metric.is_timed)
       add_interval(columns, "ratio_equal_s_" + metric.name,
-                   [name = metric.name](const Ratios& row) { return row.at_equal_seconds(name); });
+                   [name = metric.name](const Ratios& row) { return row.equal_seconds.at(name); });
   }
   return columns;
 }

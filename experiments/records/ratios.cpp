@@ -131,11 +131,6 @@ std::optional<Interval> Ratios::figure(const std::string& column) const {
   return found == figures.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<Interval> Ratios::at_equal_seconds(const std::string& metric) const {
-  const auto found = equal_seconds.find(metric);
-  return found == equal_seconds.end() ? std::nullopt : std::optional(found->second);
-}
-
 std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& below) {
   if (!(above.mean > 0) || !(below.mean > 0)) return std::nullopt;
   return welch(std::log(above.mean / below.mean), relative_error(above), relative_error(below));
@@ -172,10 +167,9 @@ std::vector<Ratios> baseline_ratios(const Experiment& experiment,
     }
     for (const Metric& metric : error_metrics()) {
       if (metric.is_followed) row.times[metric.name] = compare_times(*baseline, configuration, metric);
-      if (!metric.is_timed) continue;
-      const auto ratio =
-          curve_ratio(curves_of(*baseline, metric), curves_of(configuration, metric), log_error_ratio);
-      if (ratio) row.equal_seconds[metric.name] = *ratio;
+      if (metric.is_timed)
+        row.equal_seconds[metric.name] =
+            curve_ratio(curves_of(*baseline, metric), curves_of(configuration, metric), log_error_ratio);
     }
     rows.push_back(std::move(row));
   }

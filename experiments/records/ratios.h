@@ -49,11 +49,9 @@ struct Ratios {
   std::map<std::string, Interval> figures;   // by column of configurations.csv
   std::map<std::string, TimeToError> times;  // by metric: those that are followed
   // By metric, those that are timed: errors after the same seconds, which are those of whichever ends first.
-  std::map<std::string, Interval> equal_seconds;
+  std::map<std::string, std::optional<Interval>> equal_seconds;
 
-  // Nothing where one side has none.
-  std::optional<Interval> figure(const std::string& column) const;
-  std::optional<Interval> at_equal_seconds(const std::string& metric) const;
+  std::optional<Interval> figure(const std::string& column) const;  // nothing where one side has none
 };
 
 // Nothing where the experiment names no baseline. In the order of the configurations.

@@ -181,7 +181,7 @@ std::string ratio_table(const std::vector<Ratios>& ratios, const std::string& sc
     for (const Figure& figure : run_figures()) {
       if (figure.is_compared) row.push_back(interval_text(ratio.figure(figure.column.name)));
     }
-    row.push_back(interval_text(ratio.at_equal_seconds("relmse_corrected")));
+    row.push_back(interval_text(ratio.equal_seconds.at("relmse_corrected")));
     row.push_back(interval_text(ratio.times.at("relmse").ratio));
   }
   if (rows.empty()) return "";

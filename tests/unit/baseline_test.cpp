@@ -97,9 +97,9 @@ TEST(Baseline, RatiosAreTheBaselinesFigureOverTheConfigurations) {
   EXPECT_LT(*fast.times.at("relmse").ratio->low, 4);
   EXPECT_GT(*fast.times.at("relmse").ratio->high, 4);
   // NEE after half of its seconds, which are all of RL's: two of its frames.
-  EXPECT_NEAR(fast.at_equal_seconds("mse_corrected")->value, 4, 1e-12);
-  EXPECT_LT(*fast.at_equal_seconds("mse_corrected")->low, 4);
-  EXPECT_GT(*fast.at_equal_seconds("mse_corrected")->high, 4);
+  EXPECT_NEAR(fast.equal_seconds.at("mse_corrected")->value, 4, 1e-12);
+  EXPECT_LT(*fast.equal_seconds.at("mse_corrected")->low, 4);
+  EXPECT_GT(*fast.equal_seconds.at("mse_corrected")->high, 4);
   EXPECT_FALSE(ratios.at(1).times.at("relmse").ratio.has_value());
   EXPECT_FALSE(ratios.at(1).times.at("relmse").time.has_value());
 }
