@@ -9,7 +9,7 @@ namespace qtrace {
 struct NonFiniteSample {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
-  std::uint32_t frame = 0;  // from 1
+  std::uint32_t frame = 0;  // from 1; 0: in the pilot before it
 };
 
 // A pixel's brightest firefly. Brightness is the mean over channels, before clamping.

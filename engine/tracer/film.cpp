@@ -140,6 +140,16 @@ void Film::count_all(std::uint32_t last, const std::function<float(std::uint32_t
   for (std::uint32_t frame = 1; frame <= last; ++frame) count(frame, weight(frame));
 }
 
+void Film::note_non_finite(std::span<const NonFiniteSample> samples) {
+  if (samples.empty()) return;
+  gpu::Counters block = read_block(counters_);
+  gpu::uint& noted = block.words[std::size_t{2} * gpu::COUNTER_ALL_NON_FINITE];  // the low word
+  for (const NonFiniteSample& sample : samples) {
+    if (noted < gpu::MAX_LOCATIONS / 2) block.locations[noted++] = {sample.x, sample.y, sample.frame, 0};
+  }
+  counters_.write(0, &block, sizeof(block));
+}
+
 void Film::reset() {
   samples_.clear();
   for (gpu::Buffer& sums : sums_) sums.clear();

@@ -28,6 +28,8 @@ class Film {
   // Adds the frame's samples, times its weight; parameters must be bound.
   void accumulate(std::uint32_t frame, float weight = 1);
   void reset();  // as at the start
+  // Where samples were found elsewhere; as many as leave room for the film's own. No counter counts them.
+  void note_non_finite(std::span<const NonFiniteSample> samples);
   // After buffers were restored that hold frames 1 to `last`: what these weigh.
   void count_all(std::uint32_t last, const std::function<float(std::uint32_t)>& weight);
 

@@ -7,6 +7,7 @@
 #include "engine/tracer/sobol.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace qtrace {
@@ -35,33 +36,48 @@ RenderSettings pilot_settings(RenderSettings settings) {
 Pilot::Pilot(const Camera& camera, const RenderSettings& settings, const gpu::SceneFeatures& features,
              const CellBuffers* cells, gpu::ProgramCache& programs)
     : settings_(pilot_settings(settings)),
+      image_size_(settings.width, settings.height),
       film_(settings_.width, settings_.height, 1, programs),
       parameter_block_("parameters of the pilot", sizeof(gpu::Parameters)) {
   const gpu::Parameters parameters = make_parameters(camera, settings_, features, cells);
   parameter_block_.write(0, &parameters, sizeof(parameters));
 }
 
-TableTrial::PilotLook Pilot::render(const Shaders& shaders, const TableTrial& trial, bool teaches,
-                                    const std::function<void()>& learn) {
+void Pilot::render(const Shaders& shaders, TableTrial& trial, bool teaches,
+                   const std::function<void()>& learn) {
   parameter_block_.bind_uniform(gpu::BINDING_PARAMETERS);
   film_.bind();
   film_.reset();
   counters_ = {};
-  TableTrial::PilotLook seen;
-  seen.width = settings_.width;
-  for (std::uint32_t frame = 1; frame <= trial.pilot_frames(); ++frame) {
+  non_finite_samples_.clear();
+  std::array<FrameCounters, 2> last;
+  for (std::uint32_t frame = 1; frame <= trial.pilot_frames() && !trial.is_decided(); ++frame) {
     const bool is_lesson = frame <= trial.pilot_lessons();
-    if (frame == trial.pilot_lessons() + 1) film_.reset();
+    if (frame == trial.pilot_lessons() + 1) {
+      note_non_finite();
+      film_.reset();
+    }
     const std::size_t kind = trial.pilot_is_without(frame) ? 0 : 1;
     render_frame({.number = frame, .place = pilot_place(frame, trial), .teaches = is_lesson && teaches},
                  settings_, kind == 0 ? shaders.without : shaders.with_table, film_);
-    if (is_lesson && teaches) learn();
-    seen.counters[kind] = film_.counters();
-    counters_ += seen.counters[kind];
-    if (trial.looks_after_pilot(frame)) seen.sums.push_back(film_.half_sums());
+    // As the table doubles what it has seen; an update costs as much as a frame of a simple scene.
+    const bool learns = std::has_single_bit(frame) || frame == trial.pilot_lessons();
+    if (is_lesson && teaches && learns) learn();
+    last[kind] = film_.counters();
+    counters_ += last[kind];
+    if (trial.looks_after_pilot(frame))
+      trial.look_at_pilot({frame, settings_.width, film_.half_sums(), last});
   }
-  seen.kinds = film_.halves();
-  return seen;
+  note_non_finite();
+}
+
+// A pixel of the small picture shows what several of the image do: the middle one of these.
+void Pilot::note_non_finite() {
+  const glm::uvec2 size(settings_.width, settings_.height);
+  for (const NonFiniteSample& sample : film_.non_finite_samples()) {
+    const glm::uvec2 place = (2U * glm::uvec2(sample.x, sample.y) + 1U) * image_size_ / (2U * size);
+    non_finite_samples_.push_back({place.x, place.y, 0});
+  }
 }
 
 }  // namespace qtrace

@@ -11,7 +11,10 @@
 #include "engine/tracer/film.h"
 #include "engine/tracer/table_trial.h"
 
+#include <glm/vec2.hpp>
+
 #include <functional>
+#include <vector>
 
 namespace qtrace {
 
@@ -25,21 +28,26 @@ class Pilot {
     gpu::Program& with_table;
     gpu::Program& without;
   };
-  // All its frames. What the image's frames need must be bound, and has to be bound again. `teaches`: whether
-  // its lessons do; `learn` then updates the table after each. Waits for the work.
-  TableTrial::PilotLook render(const Shaders& shaders, const TableTrial& trial, bool teaches,
-                               const std::function<void()>& learn);
+  // Its frames, until the trial is decided. What the image's frames need must be bound, and has to be bound
+  // again. `teaches`: whether its lessons do; `learn` then updates the table. Waits for the work.
+  void render(const Shaders& shaders, TableTrial& trial, bool teaches, const std::function<void()>& learn);
 
-  // Over all its frames; paths, rays and the others as the image's frames count them.
+  // Over its frames; paths, rays and the others as the image's frames count them.
   const FrameCounters& counters() const { return counters_; }
+  // Where they lie in the image, with frame 0.
+  const std::vector<NonFiniteSample>& non_finite_samples() const { return non_finite_samples_; }
 
   std::size_t bytes() const { return film_.bytes() + parameter_block_.bytes(); }
 
  private:
+  void note_non_finite();
+
   RenderSettings settings_;
+  glm::uvec2 image_size_;  // pixels
   Film film_;
   gpu::Buffer parameter_block_;
   FrameCounters counters_;
+  std::vector<NonFiniteSample> non_finite_samples_;
 };
 
 }  // namespace qtrace

@@ -10,6 +10,8 @@ namespace {
 
 // Of a stretch; more than there can be replicates, each for both kinds of frames of a trial.
 constexpr std::uint32_t kMostSequences = 128;
+// Of frames that are tried: two kinds of frames in turn, two pairs of them in turn.
+constexpr std::uint32_t kTriedSequences = 4;
 // Frames after which all count alike.
 constexpr std::uint32_t kFullWeight = 16;
 
@@ -27,7 +29,7 @@ SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings
                              const LearningSchedule& schedule, const TableTrial& trial) {
   const std::uint32_t start = stretch_start(frame, settings, schedule, trial);
   const auto replicates = static_cast<std::uint32_t>(settings.replicates);
-  const std::uint32_t sequences = trial.is_tried(frame) ? std::lcm(replicates, 2U) : replicates;
+  const std::uint32_t sequences = trial.is_tried(frame) ? std::lcm(replicates, kTriedSequences) : replicates;
   return {start * kMostSequences + (frame - 1) % sequences, (frame - 1 - start) / sequences};
 }
 
@@ -35,15 +37,15 @@ SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial) {
   const std::uint32_t lessons = trial.pilot_lessons();
   if (frame <= lessons) return {frame, 0};
   const std::uint32_t tried = frame - lessons - 1;
-  const std::uint32_t half = (trial.pilot_frames() - lessons) / 2;
-  return {lessons + 1 + tried / half * 2 + tried % 2, tried % half / 2};
+  return {lessons + 1 + tried % kTriedSequences, tried / kTriedSequences};
 }
 
 float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial) {
-  if (settings.random != RandomNumbers::sobol || !has_table(settings) || frame > kFullWeight) return 1;
+  const auto tried = static_cast<float>(trial.weight(frame));
+  if (settings.random != RandomNumbers::sobol || !has_table(settings) || frame > kFullWeight) return tried;
   if (trial.gave_up() && trial.finding()->frame == 0) return 1;
   const std::uint32_t doubling = frame < 2 ? 1 : std::bit_floor(frame - 1);
-  return std::sqrt(static_cast<float>(doubling) / static_cast<float>(kFullWeight));
+  return tried * std::sqrt(static_cast<float>(doubling) / static_cast<float>(kFullWeight));
 }
 
 }  // namespace qtrace

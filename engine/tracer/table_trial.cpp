@@ -20,8 +20,9 @@ constexpr double kFoundApart = 0.1;
 // Of a search for a cell with what follows from it, in units of a ray: on llvmpipe, frames of the shipped
 // scenes say 0.2 to 1.0.
 constexpr double kWorkPerLookup = 0.6;
-// Standard errors that a gain must be away from its limit.
+// Standard errors that a gain must be away from its limit, and that it must be half-way through the pilot.
 constexpr double kSure = 2;
+constexpr double kSureEarly = 3;
 // The relative standard error above which the table is not given up yet: where a few blocks have most of the
 // error, it is itself uncertain, and a table that is lost costs more than one that is kept.
 constexpr double kSharp = 0.1;
@@ -33,12 +34,14 @@ constexpr double kYoung = 0.9;
 constexpr double kLeastSlope = 1;
 constexpr double kMostSlope = 1.5;
 
+// The least that a frame without the table weighs in a round.
+constexpr double kLeastWeight = 0.1;
+
 constexpr std::size_t kSavedNumbers = 10;
-constexpr std::size_t kMostSums = 4;  // of a round, before its end
 
 // Whether a gain is good for giving a table up, given the largest relative standard error for that.
-bool tells(const Gain& gain, double largest_error) {
-  return std::abs(gain.found - 1) <= kFoundApart && gain.error <= largest_error * gain.value;
+bool tells(const TableTrial::Finding& finding, double largest_error) {
+  return std::abs(finding.found - 1) <= kFoundApart && finding.gain_error <= largest_error * finding.gain;
 }
 
 double work_of(const FrameCounters& counters) {
@@ -49,46 +52,13 @@ double work_of(const FrameCounters& with_table, double without) {
   return without > 0 ? work_of(with_table) / without : 1;
 }
 
-// Frames of both kinds in turn, in two halves with random numbers of their own.
-struct RoundSums {
-  const HalfSums &begin, &quarter, &middle, &three_quarters, &end;
-  double samples = 0;  // of one kind in a half, times their weight
-
-  // Odd frames (0) or even ones (1).
-  TriedFrames halves(std::size_t kind) const {
-    return tried(kind, {&begin, &middle}, {&middle, &end}, samples);
-  }
-  // The same from the first quarter of each half alone.
-  TriedFrames quarters(std::size_t kind) const {
-    return tried(kind, {&begin, &quarter}, {&middle, &three_quarters}, samples / 2);
-  }
-
- private:
-  using Stretch = std::array<const HalfSums*, 2>;
-
-  static TriedFrames tried(std::size_t kind, const Stretch& one, const Stretch& other, double samples) {
-    TriedFrames tried;
-    const auto mean = [&](const Stretch& of, std::size_t pixel) {
-      return (glm::dvec3((*of[1])[kind][pixel]) - glm::dvec3((*of[0])[kind][pixel])) / samples;
-    };
-    for (std::size_t i = 0; i < (*one[0])[kind].size(); ++i) {
-      const glm::dvec3 first = mean(one, i);
-      const glm::dvec3 second = mean(other, i);
-      tried.mean.push_back((first + second) / 2.0);
-      tried.squared_error.push_back((first - second) * (first - second) / 4.0);
-    }
-    return tried;
-  }
-};
-
 // The gain that pays for the table's work. With independent samples, as much. With Sobol' points the error
 // falls as N^-s without the table, s > 1: fewer frames for the same work lose N^-s, not N^-1; and where the
 // sequence starts anew after 1, 2, 4, ... frames, the sum of these nets has the squared error
 // Σ L^(2-s) / N^2 = N^-s / (2^(2-s) - 1).
-// `halves`: frames without the table, by the halves of `sums`.
-double needed_gain(RandomNumbers random, double work, const RoundSums& sums, TriedFrames halves, int width) {
-  if (random == RandomNumbers::independent) return work;
-  const double ratio = gain_of({sums.quarters(0), std::move(halves)}, width).value;
+// `halfway`, `all`: frames without the table.
+double needed_gain(double work, TriedFrames halfway, TriedFrames all, int width) {
+  const double ratio = gain_of({std::move(halfway), std::move(all)}, width).value;
   const double slope = std::clamp(std::log2(ratio), kLeastSlope, kMostSlope);
   return std::pow(work, slope) / (std::exp2(2 - slope) - 1);
 }
@@ -107,37 +77,46 @@ TableTrial::TableTrial(const RenderSettings& settings)
                 : 0),
       random_(settings.random) {}
 
-bool TableTrial::looks_after_pilot(std::uint32_t frame) const {
-  return frame > pilot_lessons() && (frame - pilot_lessons()) % unit_ == 0;
+void TableTrial::look_at_pilot(PilotLook seen) {
+  const std::uint32_t tried = seen.frame - pilot_lessons();
+  if (tried == 2) {
+    HalfSums nothing;
+    for (auto& half : nothing) half.assign(seen.sums[0].size(), glm::vec3(0));
+    tried_.start(random_, std::move(nothing));
+  }
+  tried_.add(std::move(seen.sums), {1, 1});
+  // Half-way, each sequence must have two frames of either kind for its slope.
+  const bool is_halfway = tried == 2 * unit_ && unit_ % 4 == 0;
+  if (is_halfway || seen.frame == pilot_frames()) {
+    finding_ = found(0, work_of(seen.counters[1], work_of(seen.counters[0])), seen.width);
+    judge_pilot(is_halfway);
+  }
+  if (tried == unit_ || tried == 2 * unit_) tried_.mark();
 }
 
-void TableTrial::look_at_pilot(const PilotLook& seen) {
-  check(seen.sums.size() == kMostSums, "the trial of the table has not seen its pilot");
-  HalfSums nothing;
-  for (auto& half : nothing) half.assign(seen.sums[0][0].size(), glm::vec3(0));
-  const RoundSums sums{nothing, seen.sums[0], seen.sums[1], seen.sums[2], seen.sums[3], 1.0 * unit_};
-  // Independent samples are replicates each, of which there are more than of halves.
-  const auto tried = [&](std::size_t kind) {
-    if (random_ != RandomNumbers::independent) return sums.halves(kind);
-    return TriedFrames{seen.kinds[kind].mean, seen.kinds[kind].variance};
-  };
-  std::array<TriedFrames, 2> kinds{tried(0), tried(1)};
-  const Gain gain = gain_of(kinds, seen.width);
-  const double work = work_of(seen.counters[1], work_of(seen.counters[0]));
-  const double needed = needed_gain(random_, work, sums, std::move(kinds[0]), seen.width);
-  finding_ = Finding{0, gain.value, gain.error, gain.found, work, needed};
-  if (gain.value - kSure * gain.error >= needed) {
+TableTrial::Finding TableTrial::found(std::uint32_t frame, double work, int width) const {
+  const Gain gain = gain_of({tried_.frames(0), tried_.frames(1)}, width);
+  const double needed = random_ == RandomNumbers::independent
+                            ? work
+                            : needed_gain(work, tried_.halfway(0), tried_.frames(0), width);
+  return {frame, gain.value, gain.error, gain.found, work, needed};
+}
+
+void TableTrial::judge_pilot(bool is_halfway) {
+  pilot_gain_ = finding_->gain;
+  const double error = (is_halfway ? kSureEarly : kSure) * finding_->gain_error;
+  // The first two points of a sequence do not show yet how steep the curve will be.
+  const bool knows_needed = !is_halfway || random_ == RandomNumbers::independent;
+  if (knows_needed && finding_->gain - error >= finding_->needed) {
     verdict_ = Verdict::keep;
-  } else if (tells(gain, kSharp) && gain.value + kSure * gain.error < kYoung * needed) {
+  } else if (tells(*finding_, kSharp) && finding_->gain + error < kYoung * finding_->needed) {
     verdict_ = Verdict::give_up;
   }
 }
 
 std::array<TableTrial::Round, 2> TableTrial::rounds() const {
   const auto round = [this](std::uint32_t start) {
-    const std::uint32_t begin = unit_ * start;
-    const std::uint32_t quarter = unit_ * kRoundLength / 4;
-    return Round{begin, begin + quarter, begin + 2 * quarter, begin + 3 * quarter, begin + 4 * quarter};
+    return Round{unit_ * start, unit_ * (start + kRoundLength)};
   };
   return {round(kRoundStarts[0]), round(kRoundStarts[1])};
 }
@@ -160,52 +139,52 @@ std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
   std::uint32_t last = 0;
   for (const Round& r : rounds()) {
     if (!takes_place(r)) continue;
-    for (const std::uint32_t boundary : {r.begin, r.middle, r.end}) {
+    for (const std::uint32_t boundary : {r.begin, r.end}) {
       if (boundary <= frame) last = std::max(last, boundary);
     }
   }
   return last;
 }
 
+double TableTrial::weight(std::uint32_t frame) const {
+  if (!is_tried(frame) || !is_without(frame) || pilot_gain_ <= 1) return 1;
+  return std::max(1 / pilot_gain_, kLeastWeight);
+}
+
 bool TableTrial::looks_after(std::uint32_t frame) const {
   if (!is_wanted() || is_decided()) return false;
-  for (const Round& r : rounds()) {
-    for (const std::uint32_t wanted : {r.begin, r.quarter, r.middle, r.three_quarters, r.end - 1, r.end}) {
-      if (frame == wanted) return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(rounds(), [&](const Round& r) {
+    return frame >= r.begin && frame <= r.end && (frame % 2 == 0 || frame == r.end - 1);
+  });
 }
 
-void TableTrial::look(const Look& seen) {
+void TableTrial::look(Look seen) {
   for (const Round& r : rounds()) {
-    if (seen.frame == r.begin) sums_.clear();
-    if (seen.frame == r.end - 1) work_without_ = work_of(seen.counters);
-    if (seen.frame == r.end) {
-      conclude(r, r.end == rounds().back().end, seen);
-    } else if (seen.frame >= r.begin && seen.frame < r.end - 1) {
-      sums_.push_back(seen.sums);
+    if (seen.frame < r.begin || seen.frame > r.end) continue;
+    if (seen.frame == r.begin) {
+      tried_.start(random_, std::move(seen.sums));
+    } else if (seen.frame == r.end - 1) {
+      work_without_ = work_of(seen.counters);
+    } else {
+      tried_.add(std::move(seen.sums), seen.weights);
     }
+    if (seen.frame - r.begin == (r.end - r.begin) / 2) tried_.mark();
+    if (seen.frame != r.end) return;
+    check(2 * tried_.pairs() == r.end - r.begin, "the trial of the table has not seen the frames before {}",
+          seen.frame);
+    finding_ = found(seen.frame, work_of(seen.counters, work_without_), seen.width);
+    conclude(r.end == rounds().back().end);
   }
 }
 
-void TableTrial::conclude(const Round& round, bool is_last, const Look& last) {
-  check(sums_.size() == kMostSums, "the trial of the table has not seen the frames before {}", last.frame);
-  const double samples = static_cast<double>(round.end - round.begin) / 4 * last.weight;
-  const RoundSums sums{sums_[0], sums_[1], sums_[2], sums_[3], last.sums, samples};
-  std::array<TriedFrames, 2> kinds{sums.halves(0), sums.halves(1)};
-  const Gain gain = gain_of(kinds, last.width);
-  const double work = work_of(last.counters, work_without_);
-  const double needed = needed_gain(random_, work, sums, std::move(kinds[0]), last.width);
-  finding_ = Finding{last.frame, gain.value, gain.error, gain.found, work, needed};
-  sums_.clear();
-  const double most = gain.value + kSure * gain.error;
-  if (gain.value >= needed) {
+void TableTrial::conclude(bool is_last) {
+  const double most = finding_->gain + kSure * finding_->gain_error;
+  if (finding_->gain >= finding_->needed) {
     verdict_ = Verdict::keep;
-  } else if (tells(gain, kSharp) && (is_last || most < needed)) {
+  } else if (tells(*finding_, kSharp) && (is_last || most < finding_->needed)) {
     verdict_ = Verdict::give_up;
   } else if (is_last) {
-    verdict_ = tells(gain, kBlunt) && most < needed ? Verdict::give_up : Verdict::keep;
+    verdict_ = tells(*finding_, kBlunt) && most < finding_->needed ? Verdict::give_up : Verdict::keep;
   }
 }
 
@@ -215,12 +194,11 @@ std::vector<std::byte> TableTrial::saved() const {
                                                   found.gain,           found.gain_error,
                                                   found.found,          found.work,
                                                   found.needed,         static_cast<double>(verdict_),
-                                                  work_without_,        static_cast<double>(sums_.size())};
-  std::vector<std::byte> bytes;
-  append<double>(bytes, numbers);
-  for (const HalfSums& sums : sums_) {
-    for (const std::vector<glm::vec3>& half : sums) append<glm::vec3>(bytes, half);
-  }
+                                                  work_without_,        pilot_gain_};
+  const auto head = std::as_bytes(std::span(numbers));
+  std::vector<std::byte> bytes(head.begin(), head.end());
+  const std::vector<std::byte> tried = tried_.saved();
+  bytes.insert(bytes.end(), tried.begin(), tried.end());
   return bytes;
 }
 
@@ -229,27 +207,16 @@ void TableTrial::restore(std::span<const std::byte> saved) {
   constexpr std::size_t kHead = sizeof(numbers);
   const bool has_head = saved.size() >= kHead;
   if (has_head) std::memcpy(numbers.data(), saved.data(), kHead);
-  const auto sets = static_cast<std::size_t>(std::clamp(numbers[9], 0.0, 1.0 * kMostSums));
-  const std::size_t rest = has_head ? saved.size() - kHead : 0;
-  check(has_head && rest % (std::max<std::size_t>(sets, 1) * 2 * sizeof(glm::vec3)) == 0 &&
-            (sets > 0 || rest == 0) && numbers[7] >= 0 && numbers[7] <= 2,
+  check(has_head && numbers[7] >= 0 && numbers[7] <= 2,
         "the state has {} bytes of a trial of the table, which cannot be one", saved.size());
-  const auto verdict = static_cast<std::uint32_t>(numbers[7]);
+  tried_.restore(random_, saved.subspan(kHead));
   finding_.reset();
   if (numbers[0] != 0)
     finding_ = Finding{
         static_cast<std::uint32_t>(numbers[1]), numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]};
-  verdict_ = static_cast<Verdict>(verdict);
+  verdict_ = static_cast<Verdict>(static_cast<std::uint32_t>(numbers[7]));
   work_without_ = numbers[8];
-  sums_.assign(sets, {});
-  const std::byte* from = saved.data() + kHead;
-  for (HalfSums& sums : sums_) {
-    for (std::vector<glm::vec3>& half : sums) {
-      half.resize(rest / (2 * sets) / sizeof(glm::vec3));
-      std::memcpy(half.data(), from, half.size() * sizeof(glm::vec3));
-      from += half.size() * sizeof(glm::vec3);
-    }
-  }
+  pilot_gain_ = numbers[9];
 }
 
 }  // namespace qtrace

@@ -2,11 +2,9 @@
 // tell, in later ones, by error times work.
 #pragma once
 
-#include "engine/core/image.h"
 #include "engine/core/settings.h"
 #include "engine/tracer/counters.h"
-
-#include <glm/vec3.hpp>
+#include "engine/tracer/tried_sums.h"
 
 #include <array>
 #include <cstddef>
@@ -17,16 +15,13 @@
 
 namespace qtrace {
 
-// Sums over the odd and over the even frames so far, pixel by pixel.
-using HalfSums = std::array<std::vector<glm::vec3>, 2>;
-
 // First a pilot (pilot.h): frames of a small picture that teach the table, then some of both kinds. As it
 // counts nowhere else, a table that is given up leaves no trace in the image. Where the pilot cannot tell, up
 // to two rounds follow among the image's frames, of which odd ones leave the table out and even ones use it.
-// The first and the second half of a round are replicates with random numbers of their own, so that the
-// squared difference of the two means of a pixel tells the error of either kind of frames, whatever the
-// random numbers are. These frames count in the image, and a round decides about later frames only, which
-// draw from new sequences: the mean stays without bias.
+// With Sobol' points, its pairs of frames belong to two sequences in turn, so that the squared difference of
+// the two means of a pixel tells the error of either kind. The frames of a round count in the image (those
+// without the table by what the pilot found them worth), and it decides about later frames only, which draw
+// from new sequences: the mean stays without bias.
 class TableTrial {
  public:
   // None where rl.trial_frames is 0, where directions are not learned, or where lights are, too: these need
@@ -36,18 +31,18 @@ class TableTrial {
   bool is_wanted() const { return unit_ > 0; }
 
   // Of the pilot's frames, which count from 1, the first so many only teach; those after them are like a
-  // round, but that they teach nothing.
+  // round, but that they teach nothing. Where half of these suffice, the pilot ends.
   std::uint32_t pilot_lessons() const { return 2 * unit_; }
   std::uint32_t pilot_frames() const { return 6 * unit_; }
   bool pilot_is_without(std::uint32_t frame) const { return frame > pilot_lessons() && frame % 2 == 1; }
-  bool looks_after_pilot(std::uint32_t frame) const;
+  bool looks_after_pilot(std::uint32_t frame) const { return frame > pilot_lessons() && frame % 2 == 0; }
   struct PilotLook {
+    std::uint32_t frame = 0;
     int width = 0;
-    std::array<RadianceImage, 2> kinds;  // over the frames after the lessons, without the table and with it
-    std::vector<HalfSums> sums;          // of these frames, after each where it looks
+    HalfSums sums;                          // of the frames after the lessons
     std::array<FrameCounters, 2> counters;  // of the last frame of each kind
   };
-  void look_at_pilot(const PilotLook& look);
+  void look_at_pilot(PilotLook look);
 
   // Whether frame `frame` of the image (from 1) belongs to a round that takes place.
   bool is_tried(std::uint32_t frame) const;
@@ -56,16 +51,20 @@ class TableTrial {
   // The last frame up to `frame` after which a replicate of the trial begins or ends; 0 where there is none.
   std::uint32_t last_boundary(std::uint32_t frame) const;
 
+  // Of a frame of a round in the image, beside what it would weigh otherwise: without the table, as much less
+  // as its error was larger in the pilot.
+  double weight(std::uint32_t frame) const;
+
   // What the trial is to see after some frames.
   struct Look {
     std::uint32_t frame = 0;
-    double weight = 1;  // of each frame of the round in the sums
+    std::array<double, 2> weights{1, 1};  // of the frame before it, which has no table, and of this one
     int width = 0;
     HalfSums sums;
     FrameCounters counters;  // of the frame
   };
   bool looks_after(std::uint32_t frame) const;
-  void look(const Look& look);
+  void look(Look look);
 
   // What was found last; nothing before the pilot.
   struct Finding {
@@ -87,20 +86,24 @@ class TableTrial {
 
  private:
   enum class Verdict : std::uint32_t { open, keep, give_up };
-  // A round by the frames of the image after which its quarters begin and end. Its halves are replicates.
+  // A round by the frames of the image after which it begins and ends.
   struct Round {
-    std::uint32_t begin, quarter, middle, three_quarters, end;
+    std::uint32_t begin, end;
   };
   std::array<Round, 2> rounds() const;
   bool takes_place(const Round& round) const;
-  void conclude(const Round& round, bool is_last, const Look& last);
+  // What the frames tried so far say.
+  Finding found(std::uint32_t frame, double work, int width) const;
+  void judge_pilot(bool is_halfway);
+  void conclude(bool is_last);
 
   std::uint32_t unit_;  // rl.trial_frames; 0: no trial
   RandomNumbers random_;
   Verdict verdict_ = Verdict::open;
   std::optional<Finding> finding_;
-  std::vector<HalfSums> sums_;  // of the round that goes on, at its quarters so far
-  double work_without_ = 0;     // of a frame of the round
+  double pilot_gain_ = 1;    // what the pilot found last
+  TriedSums tried_;          // of the pilot or the round that goes on
+  double work_without_ = 0;  // of a frame of the round
 };
 
 }  // namespace qtrace

@@ -112,10 +112,17 @@ struct Tracer::State {
   void render_pilot() {
     if (!pilot) return;
     bind();
-    trial.look_at_pilot(pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); }));
+    pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); });
+    film.note_non_finite(pilot->non_finite_samples());
   }
 
-  void look() { trial.look({frames, weight(frames), settings.width, film.half_sums(), film.counters()}); }
+  void look() {
+    trial.look({.frame = frames,
+                .weights = {frames > 1 ? weight(frames - 1) : 1, weight(frames)},
+                .width = settings.width,
+                .sums = film.half_sums(),
+                .counters = film.counters()});
+  }
 
   void keep_busy() {
     const auto [x, y] = groups();

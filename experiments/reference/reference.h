@@ -42,9 +42,9 @@ struct ReferenceSpec {
   double work_per_frame() const { return static_cast<double>(settings.width) * settings.height; }
 };
 
-// BSDF sampling with the default Russian roulette, so that runs which differ in those share one reference;
-// size, bounces and environment are the run's, next event estimation and its choice of lights are the
-// reference's own.
+// BSDF sampling with a roulette of its own, so that runs which differ in those share one reference; size,
+// bounces and environment are the run's, next event estimation and its choice of lights are the reference's
+// own.
 ReferenceSpec reference_spec(const RunConfig& config, const std::string& scene_hash);
 
 struct Reference {

@@ -18,7 +18,8 @@ struct FrameBenchOptions {
   std::filesystem::path out;
 };
 
-// configs/paper_table.json with its settings resolved, one run for each configuration, at this size.
+// configs/paper_table.json with its settings resolved, one run for each configuration with independent random numbers, at
+// this size.
 experiments::Experiment paper_table(int size);
 
 Duration timed_frame(const gpu::Context& context, Tracer& tracer);

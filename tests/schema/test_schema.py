@@ -86,7 +86,7 @@ class SchemaTest(unittest.TestCase):
         # One needs a scene that is generated when it is asked for.
         result = qtrace("config", "check", "--no-device", *(f for f in configs if f.stem != "stability_large"))
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("paper_table.json: good: 'paper_table', runs: 12, configurations: 12\n", result.stdout)
+        self.assertIn("paper_table.json: good: 'paper_table', runs: 24, configurations: 24\n", result.stdout)
 
     def test_every_spelling_is_good(self) -> None:
         configs = {"nested": GOOD | {"rl": {"update": "sarsa"}}, "dotted": GOOD | {"rl.update": "sarsa"},

@@ -51,16 +51,16 @@ TEST(SampleSequence, StartsAnewAtEveryUpdateOfTheTable) {
   EXPECT_EQ(sequences(sobol(Sampler::rl, 2), 8), (Frames{{1}, {2}, {3}, {4}, {5, 7}, {6, 8}}));
 }
 
-// In a round, both kinds of frames and both halves have their own.
+// In a round, both kinds of frames have two each.
 TEST(SampleSequence, IsNotSharedByTheKindsOfFramesOfATrial) {
   Frames expected{{1}, {2}, {3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 16}};
-  for (const std::uint32_t first : {17U, 18U, 25U, 26U})
-    expected.push_back({first, first + 2, first + 4, first + 6});
+  for (const std::uint32_t first : {17U, 18U, 19U, 20U})
+    expected.push_back({first, first + 4, first + 8, first + 12});
   EXPECT_EQ(sequences(sobol(Sampler::rl, 1, 4), 32), expected);
 }
 
 // Lessons have sequences of their own, as the table is updated after each; then it stands still.
-TEST(SampleSequence, OfThePilotIsThatOfALessonOrOfAKindInAHalf) {
+TEST(SampleSequence, OfThePilotIsThatOfALessonOrOneOfTwoOfAKind) {
   const TableTrial trial(sobol(Sampler::rl, 1, 4));
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   for (std::uint32_t frame = 1; frame <= trial.pilot_frames(); ++frame) {
@@ -78,28 +78,27 @@ TEST(SampleSequence, OfThePilotIsThatOfALessonOrOfAKindInAHalf) {
                               {6},
                               {7},
                               {8},
-                              {9, 11, 13, 15},
-                              {10, 12, 14, 16},
-                              {17, 19, 21, 23},
-                              {18, 20, 22, 24}}));
+                              {9, 13, 17, 21},
+                              {10, 14, 18, 22},
+                              {11, 15, 19, 23},
+                              {12, 16, 20, 24}}));
 }
 
-// Pixels of both kinds after each quarter of a round, whose first half is a tenth brighter than 1 and whose
-// second half is as much darker: nothing is gained.
-HalfSums sums_after(int quarter) {
-  const float value = std::array{0.0F, 2.2F, 4.4F, 6.2F, 8.0F}[static_cast<std::size_t>(quarter)];
+// Pixels of both kinds after some pairs of frames, which are a tenth brighter than 1 and darker in turn:
+// nothing is gained.
+HalfSums sums_after(std::uint32_t pairs) {
+  const float value = static_cast<float>(pairs) + (pairs % 2 == 1 ? 0.1F : 0);
   const std::vector<glm::vec3> pixels(256, glm::vec3(value));
   return {pixels, pixels};
 }
 
-// Its table takes twice the work.
+// Its table takes twice the work. The pilot knows that half-way.
 void give_up(TableTrial& trial) {
-  TableTrial::PilotLook look;
-  look.width = 16;
-  for (int quarter = 1; quarter <= 4; ++quarter) look.sums.push_back(sums_after(quarter));
-  look.counters[0].rays = 10;
-  look.counters[1].rays = 20;
-  trial.look_at_pilot(look);
+  FrameCounters without, with_table;
+  without.rays = 10;
+  with_table.rays = 20;
+  for (std::uint32_t frame = 10; frame <= 16; frame += 2)
+    trial.look_at_pilot({frame, 16, sums_after((frame - 8) / 2), {without, with_table}});
 }
 
 // A table that was given up before the first frame leaves one sequence, and all frames alike.
@@ -124,9 +123,9 @@ TEST(SampleSequence, GoesOnWithoutATableThatARoundGaveUp) {
   const LearningSchedule schedule(settings, 1U << 20);
   TableTrial trial(settings);
   FrameCounters counters;
-  for (const std::uint32_t frame : {16U, 20U, 24U, 28U, 31U, 32U}) {
+  for (const std::uint32_t frame : {16U, 18U, 20U, 22U, 24U, 26U, 28U, 30U, 31U, 32U}) {
     counters.rays = frame == 32 ? 20 : 10;
-    trial.look({frame, 1, 16, sums_after(static_cast<int>(frame - 16) / 4), counters});
+    trial.look({.frame = frame, .width = 16, .sums = sums_after((frame - 16) / 2), .counters = counters});
   }
   ASSERT_TRUE(trial.gave_up());
   const std::uint32_t sequence = sequence_place(33, settings, schedule, trial).sequence;

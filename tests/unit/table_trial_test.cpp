@@ -23,8 +23,9 @@ RenderSettings learned(int trial_frames, RandomNumbers random = RandomNumbers::i
   return settings;
 }
 
-// What frames of a kind draw: a pixel's value in one frame, which is point `index` of its sequence.
-using Draw = std::function<double(std::mt19937& random, std::size_t pixel, std::uint32_t index)>;
+// What frames of a kind draw: a pixel's value in one frame, which is point `index` of sequence `sequence`.
+// Each pixel has two sequences.
+using Draw = std::function<double(std::mt19937& random, std::size_t sequence, std::uint32_t index)>;
 
 struct Kinds {
   Draw without, with;
@@ -47,20 +48,20 @@ Draw rare(double often) {
 // Points whose mean of two has the standard error deviation / sqrt(2), and whose mean of four has 2^-0.75 of
 // that: the squared error falls as N^-1.5.
 Draw steep(double mean, double deviation) {
-  return [=, last = std::vector<double>(kPixels), of_two = std::vector<double>(kPixels)](
-             std::mt19937& random, std::size_t pixel, std::uint32_t index) mutable {
+  return [=, last = std::vector<double>(2 * kPixels), of_two = std::vector<double>(2 * kPixels)](
+             std::mt19937& random, std::size_t sequence, std::uint32_t index) mutable {
     std::normal_distribution<double> draw(0, deviation);
     double value = 0;
     switch (index % 4) {
       case 1:
-        of_two[pixel] = std::sqrt(2) * draw(random);
-        value = of_two[pixel] - last[pixel];
+        of_two[sequence] = std::sqrt(2) * draw(random);
+        value = of_two[sequence] - last[sequence];
         break;
       case 3:
-        value = 2 * std::exp2(-0.25) * draw(random) - of_two[pixel] - last[pixel];
+        value = 2 * std::exp2(-0.25) * draw(random) - of_two[sequence] - last[sequence];
         break;
       default:
-        value = last[pixel] = draw(random);
+        value = last[sequence] = draw(random);
     }
     return mean + value;
   };
@@ -78,31 +79,15 @@ class Frames {
       : trial_(trial), sums_(other.sums_), random_(other.random_), frame_(other.frame_) {}
 
   void render_pilot(const Kinds& kinds) {
-    TableTrial::PilotLook look;
-    look.width = kSize;
     HalfSums sums = sums_;
-    std::array<std::vector<double>, 2> squares{std::vector<double>(kPixels), std::vector<double>(kPixels)};
-    const std::uint32_t tried = trial_.pilot_frames() - trial_.pilot_lessons();
-    for (std::uint32_t f = 0; f < tried; ++f) {
-      const std::size_t kind = trial_.pilot_is_without(trial_.pilot_lessons() + f + 1) ? 0 : 1;
-      const Draw& draw = kind == 0 ? kinds.without : kinds.with;
-      for (std::size_t p = 0; p < kPixels; ++p) {
-        const double x = draw(random_, p, f % (tried / 2) / 2);
-        sums[kind][p] += glm::vec3(static_cast<float>(x));
-        squares[kind][p] += x * x;
-      }
-      look.counters[kind] = counters(kinds, kind == 0);
-      if (trial_.looks_after_pilot(trial_.pilot_lessons() + f + 1)) look.sums.push_back(sums);
+    for (std::uint32_t f = trial_.pilot_lessons() + 1; f <= trial_.pilot_frames() && !trial_.is_decided();
+         ++f) {
+      const std::size_t kind = trial_.pilot_is_without(f) ? 0 : 1;
+      add(sums[kind], kind == 0 ? kinds.without : kinds.with, f - trial_.pilot_lessons(), 1);
+      of_pilot_ = f;
+      if (trial_.looks_after_pilot(f))
+        trial_.look_at_pilot({f, kSize, sums, {counters(kinds, true), counters(kinds, false)}});
     }
-    const double n = tried / 2;
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      for (std::size_t p = 0; p < kPixels; ++p) {
-        const double mean = sums[kind][p].r / n;
-        look.kinds[kind].mean.emplace_back(mean);
-        look.kinds[kind].variance.emplace_back((squares[kind][p] / n - mean * mean) / (n - 1));
-      }
-    }
-    trial_.look_at_pilot(look);
   }
 
   void render(const Kinds& kinds, std::uint32_t frames, double weight = 1) {
@@ -110,16 +95,25 @@ class Frames {
       if (frame_ == 0) render_pilot(kinds);
       ++frame_;
       const bool without = trial_.is_without(frame_);
-      const Draw& draw = without ? kinds.without : kinds.with;
-      for (std::size_t p = 0; p < kPixels; ++p) {
-        const double x = weight * draw(random_, p, (frame_ - 1) / 2);
-        sums_[(frame_ + 1) % 2][p] += glm::vec3(static_cast<float>(x));
-      }
-      if (trial_.looks_after(frame_)) trial_.look({frame_, weight, kSize, sums_, counters(kinds, without)});
+      const double own = weight * trial_.weight(frame_);
+      add(sums_[(frame_ + 1) % 2], without ? kinds.without : kinds.with, frame_, own);
+      if (trial_.looks_after(frame_))
+        trial_.look(
+            {frame_, {weight * trial_.weight(frame_ - 1), own}, kSize, sums_, counters(kinds, without)});
     }
   }
 
+  std::uint32_t of_pilot() const { return of_pilot_; }
+
  private:
+  // Frame `frame` of those that are tried, from 1, or of the image; the image's rounds start after whole
+  // fours.
+  void add(std::vector<glm::vec3>& sums, const Draw& draw, std::uint32_t frame, double weight) {
+    const std::uint32_t pair = (frame - 1) / 2;
+    for (std::size_t p = 0; p < kPixels; ++p)
+      sums[p] += glm::vec3(static_cast<float>(weight * draw(random_, p + pair % 2 * kPixels, pair / 2)));
+  }
+
   static FrameCounters counters(const Kinds& kinds, bool without) {
     FrameCounters counters;
     counters.rays = without ? 1000 : static_cast<std::uint64_t>(1000 * kinds.work);
@@ -130,6 +124,7 @@ class Frames {
   HalfSums sums_;
   std::mt19937 random_{7};
   std::uint32_t frame_ = 0;
+  std::uint32_t of_pilot_ = 0;
 };
 
 TableTrial tried(const Kinds& kinds, std::uint32_t frames = 80,
@@ -163,7 +158,8 @@ TEST(TableTrial, LeavesTheTableOutOfEveryOtherFrameOfItsRounds) {
   }
   EXPECT_EQ(trial.last_boundary(15), 0U);
   EXPECT_EQ(trial.last_boundary(23), 16U);
-  EXPECT_EQ(trial.last_boundary(30), 24U);
+  EXPECT_EQ(trial.last_boundary(31), 16U);
+  EXPECT_EQ(trial.last_boundary(32), 32U);
   EXPECT_EQ(trial.last_boundary(64), 64U);
   EXPECT_EQ(trial.last_boundary(1000), 80U);
 }
@@ -180,13 +176,17 @@ TEST(TableTrial, IsNotWantedWithoutLearnedDirectionsOrWithLearnedLights) {
   EXPECT_FALSE(TableTrial(settings).is_wanted());
 }
 
-// Three channels of 16384 pixels with seven degrees of freedom each; all channels are alike here.
+// Of a gain, from three channels of 16384 pixels with so many degrees of freedom each; all channels are alike
+// here.
+double error_of(double gain, double degrees) { return gain * 2 / std::sqrt(degrees * kPixels); }
+
+// Half-way through the pilot there are four frames of either kind.
 TEST(TableTrial, KeepsATableWhoseErrorTimesWorkIsLess) {
   const TableTrial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1);
   ASSERT_TRUE(trial.finding());
   EXPECT_EQ(trial.finding()->frame, 0U);
   EXPECT_NEAR(trial.finding()->gain, 2.25, 0.05);
-  EXPECT_NEAR(trial.finding()->gain_error, 2.25 * 2 / std::sqrt(7 * kPixels), 0.005);
+  EXPECT_NEAR(trial.finding()->gain_error, error_of(2.25, 3), 0.005);
   EXPECT_NEAR(trial.finding()->work, 1.3, 1e-9);
   EXPECT_NEAR(trial.finding()->needed, 1.3, 1e-9);
   EXPECT_TRUE(trial.is_decided());
@@ -204,12 +204,12 @@ TEST(TableTrial, GivesATableUpThatTakesMoreWorkThanItSaves) {
   EXPECT_TRUE(trial.is_without(2));
 }
 
-// Two halves of a round have one degree of freedom.
-TEST(TableTrial, DecidesInALaterRoundByItsHalves) {
+// After a round there are eight frames of either kind.
+TEST(TableTrial, DecidesInALaterRound) {
   const TableTrial kept = tried_anew(kEqual, {normal(1, 0.3), normal(1, 0.2)});
   EXPECT_EQ(kept.finding()->frame, 32U);
   EXPECT_NEAR(kept.finding()->gain, 2.25, 0.2);
-  EXPECT_NEAR(kept.finding()->gain_error, 2.25 * 2 / std::sqrt(kPixels), 0.01);
+  EXPECT_NEAR(kept.finding()->gain_error, error_of(2.25, 7), 0.002);
   EXPECT_FALSE(kept.gave_up());
   EXPECT_TRUE(kept.is_tried(31)) << "what has been is forgotten";
   EXPECT_FALSE(kept.is_tried(65));
@@ -274,6 +274,57 @@ TEST(TableTrial, NeedsMoreGainWhereTheErrorFallsFasterThanOneOverN) {
   const TableTrial flat = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
   EXPECT_NEAR(flat.finding()->needed, 1.3, 0.1);
   EXPECT_FALSE(flat.gave_up());
+}
+
+// Two sequences have one degree of freedom.
+TEST(TableTrial, TellsErrorsOfPointsByTheirTwoSequences) {
+  const TableTrial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
+  EXPECT_NEAR(trial.finding()->gain, 2.25, 0.2);
+  EXPECT_NEAR(trial.finding()->gain_error, error_of(2.25, 1), 0.01);
+}
+
+// A clear case ends the pilot half-way, but a table is kept only when it is known how steep the curve is.
+TEST(TableTrial, EndsItsPilotHalfWayWhereThatSuffices) {
+  const auto seen = [](double without, RandomNumbers random) {
+    TableTrial trial(learned(4, random));
+    Frames frames(trial);
+    frames.render({normal(1, without), normal(1, 0.2)}, 1);
+    EXPECT_TRUE(trial.is_decided());
+    return frames.of_pilot();
+  };
+  EXPECT_EQ(seen(0.2, RandomNumbers::independent), 16U);
+  EXPECT_EQ(seen(0.2, RandomNumbers::sobol), 16U);
+  EXPECT_EQ(seen(0.3, RandomNumbers::independent), 16U);
+  EXPECT_EQ(seen(0.3, RandomNumbers::sobol), 24U);
+}
+
+// With too few frames for two looks there is one.
+TEST(TableTrial, IsAsShortAsItIsTold) {
+  TableTrial trial(learned(2));
+  Frames frames(trial);
+  frames.render({normal(1, 0.2), normal(1, 0.2)}, 1);
+  EXPECT_TRUE(trial.gave_up());
+  EXPECT_EQ(frames.of_pilot(), 12U);
+}
+
+// The pilot says how much noisier frames without the table are, and has no part in the image.
+TEST(TableTrial, WeighsFramesWithoutTheTableByWhatThePilotFoundThemWorth) {
+  TableTrial trial(learned(4));
+  Frames frames(trial);
+  EXPECT_EQ(trial.weight(17), 1);
+  frames.render({normal(1, std::sqrt(1.55) * 0.2), normal(1, 0.2), 1.6}, 17);
+  ASSERT_FALSE(trial.is_decided());
+  const double gain = trial.finding()->gain;
+  ASSERT_GT(gain, 1.5);
+  EXPECT_DOUBLE_EQ(trial.weight(17), 1 / gain);
+  EXPECT_EQ(trial.weight(16), 1);
+  EXPECT_EQ(trial.weight(18), 1);
+  EXPECT_DOUBLE_EQ(trial.weight(31), 1 / gain);
+  EXPECT_EQ(trial.weight(33), 1);
+  frames.render({normal(1, 0.2), normal(1, 0.2)}, 20);
+  ASSERT_TRUE(trial.gave_up());
+  EXPECT_DOUBLE_EQ(trial.weight(31), 1 / gain) << "what has been is forgotten";
+  EXPECT_EQ(trial.weight(35), 1);
 }
 
 TEST(TableTrial, KnowsWhatFramesWeigh) {
