@@ -200,13 +200,14 @@ void visit_knobs(Visitor& visit, RlSettings& rl) {
                  1, 1024},
         rl.guided_bounces);
   visit(
-      KnobInfo{"trial_frames", "frames",
-               "length of a trial of the table (an even number): before the first frame, a small picture of "
-               "the scene teaches the table for twice as many frames and then is rendered for four times as "
-               "many, every other one without the table; where error times work is less without it, the "
-               "run does without; where that cannot be told, frames 17 to 32 and then 65 to 80 (for 4) try "
-               "again; 0: no trial; none where lights are learned",
-               0, 1024},
+      KnobInfo{
+          "trial_frames", "frames",
+          "length of a trial of the table (an even number): before the first frame, a small picture of "
+          "the scene teaches the table for twice as many frames and then is rendered up to four times as "
+          "often, every other time without the table; where error times work is less without it, the "
+          "run does without; where that cannot be told, frames 17 to 32 and then 65 to 80 (for 4) try "
+          "again; 0: no trial; none where lights are learned",
+          0, 1024},
       rl.trial_frames);
   visit(
       KnobInfo{

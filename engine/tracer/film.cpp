@@ -75,12 +75,13 @@ struct SequenceSums {
     ++sequences;
   }
   glm::dvec3 mean() const { return weight > 0 ? sum / weight : glm::dvec3(0); }
-  // Of the mean: the spread of the sums about what their weights let expect.
+  // Of the mean: the spread of the sums about what their weights let expect. Where all weigh the same, the
+  // divisor has the n - 1 of n sequences.
   glm::dvec3 variance() const {
     if (sequences < 2) return glm::dvec3(0);
     const glm::dvec3 m = mean();
     const glm::dvec3 spread = squares - 2.0 * m * products + m * m * weight_squares;
-    return glm::max(spread, 0.0) * (sequences / (sequences - 1) / (weight * weight));
+    return glm::max(spread, 0.0) / (weight * weight - weight_squares);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/gpu/structs.h"
 #include "engine/tracer/frame.h"
+#include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/sobol.h"
@@ -31,12 +32,19 @@ RenderSettings pilot_settings(RenderSettings settings) {
   return settings;
 }
 
+// An update costs as much as a frame of a simple scene, so there are few: when what the table has seen has
+// doubled, after the last lesson, and before its sums could be full.
+bool learns_after(std::uint32_t lesson, std::uint32_t lessons, std::uint32_t most_taught) {
+  return std::has_single_bit(lesson) || lesson == lessons || lesson % most_taught == 0;
+}
+
 }  // namespace
 
 Pilot::Pilot(const Camera& camera, const RenderSettings& settings, const gpu::SceneFeatures& features,
              const CellBuffers* cells, gpu::ProgramCache& programs)
     : settings_(pilot_settings(settings)),
       image_size_(settings.width, settings.height),
+      most_taught_(most_taught_frames(settings_)),
       film_(settings_.width, settings_.height, 1, programs),
       parameter_block_("parameters of the pilot", sizeof(gpu::Parameters)) {
   const gpu::Parameters parameters = make_parameters(camera, settings_, features, cells);
@@ -60,9 +68,7 @@ void Pilot::render(const Shaders& shaders, TableTrial& trial, bool teaches,
     const std::size_t kind = trial.pilot_is_without(frame) ? 0 : 1;
     render_frame({.number = frame, .place = pilot_place(frame, trial), .teaches = is_lesson && teaches},
                  settings_, kind == 0 ? shaders.without : shaders.with_table, film_);
-    // As the table doubles what it has seen; an update costs as much as a frame of a simple scene.
-    const bool learns = std::has_single_bit(frame) || frame == trial.pilot_lessons();
-    if (is_lesson && teaches && learns) learn();
+    if (is_lesson && teaches && learns_after(frame, trial.pilot_lessons(), most_taught_)) learn();
     last[kind] = film_.counters();
     counters_ += last[kind];
     if (trial.looks_after_pilot(frame))

@@ -20,7 +20,8 @@ namespace qtrace {
 
 class Pilot {
  public:
-  // Half as wide and as high as the image, or less. `settings` as they take effect.
+  // Half as wide and as high as the image (rounded, and one pixel at least), or less. `settings` as they take
+  // effect.
   Pilot(const Camera& camera, const RenderSettings& settings, const gpu::SceneFeatures& features,
         const CellBuffers* cells, gpu::ProgramCache& programs);
 
@@ -43,7 +44,8 @@ class Pilot {
   void note_non_finite();
 
   RenderSettings settings_;
-  glm::uvec2 image_size_;  // pixels
+  glm::uvec2 image_size_;      // pixels
+  std::uint32_t most_taught_;  // lessons between two updates, at most
   Film film_;
   gpu::Buffer parameter_block_;
   FrameCounters counters_;

@@ -41,9 +41,10 @@ SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial) {
 }
 
 float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial) {
-  const auto tried = static_cast<float>(trial.weight(frame));
-  if (settings.random != RandomNumbers::sobol || !has_table(settings) || frame > kFullWeight) return tried;
+  if (settings.random != RandomNumbers::sobol || !has_table(settings)) return 1;
   if (trial.gave_up() && trial.finding()->frame == 0) return 1;
+  const auto tried = static_cast<float>(trial.weight(frame));
+  if (frame > kFullWeight) return tried;
   const std::uint32_t doubling = frame < 2 ? 1 : std::bit_floor(frame - 1);
   return tried * std::sqrt(static_cast<float>(doubling) / static_cast<float>(kFullWeight));
 }

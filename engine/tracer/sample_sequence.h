@@ -23,12 +23,14 @@ struct SequencePlace {
 SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings,
                              const LearningSchedule& schedule, const TableTrial& trial);
 
-// Of a frame of the trial's pilot: each lesson has a sequence, and after these each half and kind of frames.
+// Of a frame of the trial's pilot: each lesson has a sequence, and after these each kind of frames has two,
+// which their pairs take in turn.
 SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial);
 
 // Of the frame in the image. With Sobol' points and a table the first frames count for less: their stretches
 // are short, and a long net is worth more than its share of the samples. It depends on nothing but the
-// frame's number and on what was known before the first frame, so that the mean stays without bias.
+// frame's number and on what was known before the first frame, the pilot's findings among it, so that the
+// mean stays without bias. Independent samples all count alike, as their variance is computed.
 float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial);
 
 }  // namespace qtrace

@@ -47,7 +47,11 @@ std::vector<Block> blocks_of(const std::array<TriedFrames, 2>& kinds, std::size_
       block.errors[kind] += relative.r + relative.g + relative.b;
     }
   }
-  std::erase_if(blocks, [](const Block& block) { return block.pixels == 0; });
+  // Radiance may go beyond what sums can hold, which says nothing about the table.
+  std::erase_if(blocks, [](const Block& block) {
+    return block.pixels == 0 || !std::isfinite(block.errors[0] + block.errors[1]) ||
+           !std::isfinite(block.found[0] + block.found[1]);
+  });
   return blocks;
 }
 

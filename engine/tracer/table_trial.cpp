@@ -92,6 +92,7 @@ void TableTrial::look_at_pilot(PilotLook seen) {
     judge_pilot(is_halfway);
   }
   if (tried == unit_ || tried == 2 * unit_) tried_.mark();
+  if (is_decided() || seen.frame == pilot_frames()) tried_ = {};
 }
 
 TableTrial::Finding TableTrial::found(std::uint32_t frame, double work, int width) const {
@@ -147,8 +148,9 @@ std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
 }
 
 double TableTrial::weight(std::uint32_t frame) const {
-  if (!is_tried(frame) || !is_without(frame) || pilot_gain_ <= 1) return 1;
-  return std::max(1 / pilot_gain_, kLeastWeight);
+  const Round first = rounds().front();
+  const bool is_of_it = frame > first.begin && frame <= first.end && is_tried(frame) && is_without(frame);
+  return is_of_it && pilot_gain_ > 1 ? std::max(1 / pilot_gain_, kLeastWeight) : 1;
 }
 
 bool TableTrial::looks_after(std::uint32_t frame) const {
@@ -173,6 +175,7 @@ void TableTrial::look(Look seen) {
     check(2 * tried_.pairs() == r.end - r.begin, "the trial of the table has not seen the frames before {}",
           seen.frame);
     finding_ = found(seen.frame, work_of(seen.counters, work_without_), seen.width);
+    tried_ = {};
     conclude(r.end == rounds().back().end);
   }
 }

@@ -19,9 +19,8 @@ namespace qtrace {
 // counts nowhere else, a table that is given up leaves no trace in the image. Where the pilot cannot tell, up
 // to two rounds follow among the image's frames, of which odd ones leave the table out and even ones use it.
 // With Sobol' points, its pairs of frames belong to two sequences in turn, so that the squared difference of
-// the two means of a pixel tells the error of either kind. The frames of a round count in the image (those
-// without the table by what the pilot found them worth), and it decides about later frames only, which draw
-// from new sequences: the mean stays without bias.
+// the two means of a pixel tells the error of either kind. The frames of a round count in the image, and it
+// decides about later frames only, which draw from new sequences: the mean stays without bias.
 class TableTrial {
  public:
   // None where rl.trial_frames is 0, where directions are not learned, or where lights are, too: these need
@@ -31,7 +30,8 @@ class TableTrial {
   bool is_wanted() const { return unit_ > 0; }
 
   // Of the pilot's frames, which count from 1, the first so many only teach; those after them are like a
-  // round, but that they teach nothing. Where half of these suffice, the pilot ends.
+  // round, but that they teach nothing. Where half of these suffice, the pilot ends (with rl.trial_frames a
+  // multiple of 4).
   std::uint32_t pilot_lessons() const { return 2 * unit_; }
   std::uint32_t pilot_frames() const { return 6 * unit_; }
   bool pilot_is_without(std::uint32_t frame) const { return frame > pilot_lessons() && frame % 2 == 1; }
@@ -48,11 +48,12 @@ class TableTrial {
   bool is_tried(std::uint32_t frame) const;
   // Whether it leaves the table out: in a round, or after the table was given up.
   bool is_without(std::uint32_t frame) const;
-  // The last frame up to `frame` after which a replicate of the trial begins or ends; 0 where there is none.
+  // The last frame up to `frame` after which a round begins or ends; 0 where there is none.
   std::uint32_t last_boundary(std::uint32_t frame) const;
 
-  // Of a frame of a round in the image, beside what it would weigh otherwise: without the table, as much less
-  // as its error was larger in the pilot.
+  // Of a frame in the image, beside what it would weigh otherwise: in the first round, those without the
+  // table weigh as much less as their error was larger in the pilot. Whether a second round takes place
+  // depends on the image's own samples, and weights that do would make its mean biased.
   double weight(std::uint32_t frame) const;
 
   // What the trial is to see after some frames.

@@ -114,6 +114,7 @@ struct Tracer::State {
     bind();
     pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); });
     film.note_non_finite(pilot->non_finite_samples());
+    of_pilot = pilot->counters();
   }
 
   void look() {
@@ -145,6 +146,7 @@ struct Tracer::State {
   std::optional<QTable> table;
   std::optional<Pilot> pilot;  // where a trial is wanted
   std::vector<std::string> warnings;
+  FrameCounters of_pilot;  // none after a restored state
   std::uint32_t frames = 0;
   bool learning = true;
 };
@@ -184,7 +186,7 @@ std::uint32_t Tracer::frames() const { return state_->frames; }
 
 FrameCounters Tracer::last_frame_counters() const {
   FrameCounters counters = state_->film.counters();
-  if (state_->pilot && state_->frames == 1) counters += state_->pilot->counters();
+  if (state_->frames == 1) counters += state_->of_pilot;
   return counters;
 }
 
@@ -221,6 +223,7 @@ void Tracer::restore(const TracerState& saved) {
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
   }
+  state_->of_pilot = {};
   state_->frames = saved.frames;
   state_->film.count_all(saved.frames, [&](std::uint32_t frame) { return state_->weight(frame); });
 }

@@ -92,8 +92,9 @@ void check_random_numbers(const RenderSettings& render, const Expectation& expec
         "key 'replicates' is {} but must be 1 or even: odd and even frames belong to different ones",
         render.replicates);
   check(render.rl.trial_frames % 2 == 0,
-        "key 'rl.trial_frames' is {} but must be even: every quarter of a round of the trial has frames with "
-        "and without the table",
+        "key 'rl.trial_frames' is {} but must be even: the trial compares frames with the table and without "
+        "it, two "
+        "groups of each",
         render.rl.trial_frames);
   check(expect.against == Against::nothing || render.random == RandomNumbers::independent ||
             render.replicates >= kFewestReplicates,

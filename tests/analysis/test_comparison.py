@@ -108,7 +108,7 @@ class CompareTest(FolderTest):
         folder = ROOT / "results/published/time_to_error"
         result = compare(load(folder), load(folder))
         self.assertEqual({row.verdict for row in result.rows}, {"same"})
-        self.assertEqual(len({row.configuration for row in result.rows}), 35)
+        self.assertEqual(len({row.configuration for row in result.rows}), 70)
         self.assertTrue({"MSE", "relMSE × s", "host ms/frame"} <= {row.figure for row in result.rows})
 
     def test_a_metric_that_only_the_manifest_knows(self) -> None:

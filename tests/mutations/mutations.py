@@ -6,14 +6,14 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Mutation:
     name: str
-    file: str  # below shaders/, or below the root where it begins with engine/
+    file: str  # below shaders/, or below the root where it begins with engine/ or experiments/
     find: str
     replace: str
 
     @property
     def path(self) -> str:
         """From the root."""
-        return self.file if self.file.startswith("engine/") else f"shaders/{self.file}"
+        return self.file if self.file.startswith(("engine/", "experiments/")) else f"shaders/{self.file}"
 
 
 MUTATIONS = [
@@ -26,6 +26,19 @@ MUTATIONS = [
              "mixed(group_number)"),
     Mutation("one sequence on both sides of an update", "engine/tracer/sample_sequence.cpp",
              "if (!has_table(settings)) return 0;", "return 0;"),
+    Mutation("replicates of a trial share a sequence", "engine/tracer/sample_sequence.cpp",
+             "lessons + 1 + tried % kTriedSequences, tried / kTriedSequences", "lessons + 1 + tried % 2, tried / 2"),
+    Mutation("a pilot whose kinds of frames change places", "engine/tracer/pilot.cpp",
+             "kind == 0 ? shaders.without : shaders.with_table", "kind == 0 ? shaders.with_table : shaders.without"),
+    Mutation("a table that pays for its work alone, however steep the curve", "engine/tracer/table_trial.cpp",
+             "return std::pow(work, slope) / (std::exp2(2 - slope) - 1);", "return work;"),
+    Mutation("tried frames weighed by what they found themselves", "engine/tracer/table_trial.cpp",
+             "std::max(1 / pilot_gain_, kLeastWeight)", "std::max(1 / finding_->gain, kLeastWeight)"),
+    Mutation("the variance of samples for that of replicates", "engine/tracer/film.cpp",
+             "replicates_ > 1 ? over_replicates() : over_samples()", "over_samples()"),
+    Mutation("errors at the longer of two times", "experiments/records/ratios.cpp",
+             "std::min(baseline.back().seconds, configuration.back().seconds)",
+             "std::max(baseline.back().seconds, configuration.back().seconds)"),
     Mutation("pixels scrambled alike", "sampling/sobol.glsl", "uvec4(key.pixel, frame_sequence", "uvec4(0u, frame_sequence"),
     Mutation("sequences scrambled alike", "sampling/sobol.glsl", "key.pixel, frame_sequence,", "key.pixel, 0u,"),
     Mutation("scrambled by the poor bits of the hash", "sampling/sobol.glsl", "seeds ^ (seeds >> 16u)", "seeds"),

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Applies deliberate errors to the shaders, one at a time, in a copy of the tree, and looks whether the tests notice.
+"""Applies deliberate errors to the sources, one at a time, in a copy of the tree, and looks whether the tests notice.
 
     ./dev mutations [--only WORD] [--out FILE.md]
 
 Prints a line for each and writes a table. Exit code 1 if an error survives; it stops where an error's text is not found
-exactly once, or where the shader with it is no program.
+exactly once, or where a shader with it is no program.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 from mutations import MUTATIONS, Mutation
 from tree import ROOT, Edit, Tree, commit, copied
 
-SUITES = ["gpu", "independent", "render"]  # the quickest first
+SUITES = ["unit", "gpu", "independent", "render"]  # the quickest first
 TIMEOUT = 600  # seconds for a suite: an endless loop is noticed as well
 NOT_A_PROGRAM = re.compile(r"does not (?:compile|link)[^\n]*(?:\n[^\n]+){0,3}")  # as engine/gpu/program.cpp says it
 
@@ -63,10 +63,10 @@ def try_one(tree: Tree, mutation: Mutation) -> Outcome:
 
 
 def table(outcomes: list[Outcome]) -> str:
-    lines = ["# Deliberate errors in shaders", "",
+    lines = ["# Deliberate errors", "",
              f"Of {len(outcomes)}, applied one at a time to commit {commit()}, "
              f"{sum(bool(o.caught_by) for o in outcomes)} were noticed. `./dev mutations` does it again.", "",
-             "| error | shader | noticed first by |", "|---|---|---|"]
+             "| error | file | noticed first by |", "|---|---|---|"]
     lines += [f"| {o.mutation.name} | `{o.mutation.file}` | {o.caught_by or '**nothing**'} |" for o in outcomes]
     return "\n".join(lines) + "\n"
 

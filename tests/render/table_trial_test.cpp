@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace qtrace::test {
 namespace {
 
@@ -52,6 +55,31 @@ TEST(TableTrial, CountsItsPilotInTheFirstFrame) {
   EXPECT_EQ(first.last_frame_counters().paths, 64U * 64U + 24U * 32U * 32U);
   EXPECT_EQ(second.last_frame_counters().paths, 64U * 64U);
   EXPECT_GT(first.last_frame_counters().rays, 2 * second.last_frame_counters().rays);
+}
+
+// A sky so bright that samples overflow: they count as 0, and the list says where in the image, and that it
+// was before the first frame. Both kinds of numbers, as their frames differ.
+TEST(TableTrial, LocatesSamplesOfItsPilotThatAreNotFinite) {
+  for (const RandomNumbers random : {RandomNumbers::independent, RandomNumbers::sobol}) {
+    RenderSettings settings = settings_of(Nee::one_ray);
+    settings.environment = {3e38F, 3e38F, 3e38F};
+    settings.random = random;
+    const Tracer tracer = rendered("open_sky.glb", settings, 1);
+    const std::vector<NonFiniteSample> samples = tracer.non_finite_samples();
+    EXPECT_GT(std::ranges::count(samples, 0U, &NonFiniteSample::frame), 0);
+    EXPECT_EQ(samples.size(), tracer.last_frame_counters().non_finite);
+    std::uint32_t rightmost = 0, lowest = 0;
+    for (const NonFiniteSample& sample : samples) {
+      EXPECT_LT(sample.x, 64U);
+      EXPECT_LT(sample.y, 64U);
+      EXPECT_LE(sample.frame, 1U);
+      if (sample.frame == 0) {
+        rightmost = std::max(rightmost, sample.x);
+        lowest = std::max(lowest, sample.y);
+      }
+    }
+    EXPECT_GE(std::max(rightmost, lowest), 32U) << "pixels of the pilot, not of the image";
+  }
 }
 
 TEST(TableTrial, KeepsTheTableBehindABlocker) {

@@ -50,6 +50,16 @@ TEST(Reference, SamplesLightsAsItIsTold) {
   EXPECT_EQ(spec.settings.lights, LightChoice::uniform);
 }
 
+// Whatever the run's roulette is.
+TEST(Reference, HasARouletteOfItsOwn) {
+  RunConfig config = small_config();
+  config.render.russian_roulette_start = 0;
+  config.reference.random = RandomNumbers::independent;
+  EXPECT_EQ(reference_spec(config, "scene").settings.russian_roulette_start, 3);
+  config.reference.random = RandomNumbers::sobol;
+  EXPECT_EQ(reference_spec(config, "scene").settings.russian_roulette_start, 8);
+}
+
 TEST(Reference, NeverClamps) {
   RunConfig config = small_config();
   config.render.clamp_radiance = 3;

@@ -59,7 +59,7 @@ TEST(SampleSequence, IsNotSharedByTheKindsOfFramesOfATrial) {
   EXPECT_EQ(sequences(sobol(Sampler::rl, 1, 4), 32), expected);
 }
 
-// Lessons have sequences of their own, as the table is updated after each; then it stands still.
+// Lessons have sequences of their own, as the table is updated after most; then it stands still.
 TEST(SampleSequence, OfThePilotIsThatOfALessonOrOneOfTwoOfAKind) {
   const TableTrial trial(sobol(Sampler::rl, 1, 4));
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;

@@ -321,6 +321,8 @@ TEST(TableTrial, WeighsFramesWithoutTheTableByWhatThePilotFoundThemWorth) {
   EXPECT_EQ(trial.weight(18), 1);
   EXPECT_DOUBLE_EQ(trial.weight(31), 1 / gain);
   EXPECT_EQ(trial.weight(33), 1);
+  ASSERT_TRUE(trial.is_tried(65));
+  EXPECT_EQ(trial.weight(65), 1) << "whether there is a second round depends on the image's samples";
   frames.render({normal(1, 0.2), normal(1, 0.2)}, 20);
   ASSERT_TRUE(trial.gave_up());
   EXPECT_DOUBLE_EQ(trial.weight(31), 1 / gain) << "what has been is forgotten";
