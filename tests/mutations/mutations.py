@@ -31,7 +31,7 @@ MUTATIONS = [
     Mutation("a pilot whose kinds of frames change places", "engine/tracer/pilot.cpp",
              "kind == 0 ? shaders.without : shaders.with_table", "kind == 0 ? shaders.with_table : shaders.without"),
     Mutation("a table that pays for its work alone, however steep the curve", "engine/tracer/table_trial.cpp",
-             "return std::pow(work, slope) / (std::exp2(2 - slope) - 1);", "return work;"),
+             "return std::pow(work, slope) / (std::exp2(2 - slope) - 1);", "return std::pow(work, 1 + 0 * slope);"),
     Mutation("tried frames weighed by what they found themselves", "engine/tracer/table_trial.cpp",
              "std::max(1 / pilot_gain_, kLeastWeight)", "std::max(1 / finding_->gain, kLeastWeight)"),
     Mutation("the variance of samples for that of replicates", "engine/tracer/film.cpp",
