@@ -26,6 +26,9 @@ constexpr double kSureEarly = 3;
 // The relative standard error above which the table is not given up yet: where a few blocks have most of the
 // error, it is itself uncertain, and a table that is lost costs more than one that is kept.
 constexpr double kSharp = 0.1;
+// The same in the pilot without light samples: few of its paths find light, and the table that these have
+// taught becomes much better yet.
+constexpr double kSharpWithoutNee = 0.05;
 // The relative standard error above which a gain says nothing.
 constexpr double kBlunt = 0.25;
 // What a gain in the pilot may lack, as the table has seen few paths by then.
@@ -75,7 +78,8 @@ TableTrial::TableTrial(const RenderSettings& settings)
     : unit_(settings.sampler == Sampler::rl && !learns_lights(settings)
                 ? static_cast<std::uint32_t>(settings.rl.trial_frames)
                 : 0),
-      random_(settings.random) {}
+      random_(settings.random),
+      sharp_pilot_(settings.nee == Nee::none ? kSharpWithoutNee : kSharp) {}
 
 void TableTrial::look_at_pilot(PilotLook seen) {
   const std::uint32_t tried = seen.frame - pilot_lessons();
@@ -110,7 +114,7 @@ void TableTrial::judge_pilot(bool is_halfway) {
   const bool knows_needed = !is_halfway || random_ == RandomNumbers::independent;
   if (knows_needed && finding_->gain - error >= finding_->needed) {
     verdict_ = Verdict::keep;
-  } else if (tells(*finding_, kSharp) && finding_->gain + error < kYoung * finding_->needed) {
+  } else if (tells(*finding_, sharp_pilot_) && finding_->gain + error < kYoung * finding_->needed) {
     verdict_ = Verdict::give_up;
   }
 }

@@ -100,6 +100,7 @@ class TableTrial {
 
   std::uint32_t unit_;  // rl.trial_frames; 0: no trial
   RandomNumbers random_;
+  double sharp_pilot_;  // the relative standard error of a gain with which the pilot may give the table up
   Verdict verdict_ = Verdict::open;
   std::optional<Finding> finding_;
   double pilot_gain_ = 1;    // what the pilot found last
