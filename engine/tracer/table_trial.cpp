@@ -66,12 +66,6 @@ double needed_gain(double work, TriedFrames halfway, TriedFrames all, int width)
   return std::pow(work, slope) / (std::exp2(2 - slope) - 1);
 }
 
-template <class T>
-void append(std::vector<std::byte>& bytes, std::span<const T> values) {
-  const auto from = std::as_bytes(values);
-  bytes.insert(bytes.end(), from.begin(), from.end());
-}
-
 }  // namespace
 
 TableTrial::TableTrial(const RenderSettings& settings)

@@ -119,7 +119,7 @@ struct Tracer::State {
 
   void look() {
     trial.look({.frame = frames,
-                .weights = {frames > 1 ? weight(frames - 1) : 1, weight(frames)},
+                .weights = {weight(frames - 1), weight(frames)},
                 .width = settings.width,
                 .sums = film.half_sums(),
                 .counters = film.counters()});

@@ -67,16 +67,16 @@ std::vector<std::byte> TriedSums::saved() const {
   const std::array<std::uint32_t, kSavedCounts> counts{all_.pairs, marked_.pairs};
   const auto head = std::as_bytes(std::span(counts));
   std::vector<std::byte> bytes(head.begin(), head.end());
-  for (const HalfSums* sums : {&last_, &all_.all, &all_.other, &marked_.all, &marked_.other})
-    append(bytes, *sums);
+  for (const HalfSums* sums : parts(*this)) append(bytes, *sums);
   return bytes;
 }
 
 void TriedSums::restore(RandomNumbers random, std::span<const std::byte> saved) {
-  constexpr std::size_t kVectors = 10;
+  const auto own = parts(*this);
+  const std::size_t bytes_per_pixel = own.size() * 2 * sizeof(glm::vec3);
   std::array<std::uint32_t, kSavedCounts> counts{};
   const bool is_whole =
-      saved.size() >= sizeof(counts) && (saved.size() - sizeof(counts)) % (kVectors * sizeof(glm::vec3)) == 0;
+      saved.size() >= sizeof(counts) && (saved.size() - sizeof(counts)) % bytes_per_pixel == 0;
   check(is_whole, "the state has {} bytes of the frames that try the table, which cannot be these",
         saved.size());
   std::memcpy(counts.data(), saved.data(), sizeof(counts));
@@ -84,8 +84,8 @@ void TriedSums::restore(RandomNumbers random, std::span<const std::byte> saved) 
   all_.pairs = counts[0];
   marked_.pairs = counts[1];
   const std::byte* from = saved.data() + sizeof(counts);
-  const std::size_t pixels = (saved.size() - sizeof(counts)) / (kVectors * sizeof(glm::vec3));
-  for (HalfSums* sums : {&last_, &all_.all, &all_.other, &marked_.all, &marked_.other}) {
+  const std::size_t pixels = (saved.size() - sizeof(counts)) / bytes_per_pixel;
+  for (HalfSums* sums : own) {
     for (std::vector<glm::vec3>& kind : *sums) {
       kind.resize(pixels);
       std::memcpy(kind.data(), from, pixels * sizeof(glm::vec3));

@@ -44,6 +44,10 @@ class TriedSums {
     HalfSums other;  // of their squares; with Sobol' points, of those of the first sequence
   };
   TriedFrames frames(const Sums& sums, std::size_t kind) const;
+  // What is saved beside the counts, in this order. `self`: const or not.
+  static auto parts(auto& self) {
+    return std::array{&self.last_, &self.all_.all, &self.all_.other, &self.marked_.all, &self.marked_.other};
+  }
 
   RandomNumbers random_ = RandomNumbers::independent;
   HalfSums last_;

@@ -3,8 +3,8 @@
 #include "engine/core/check.h"
 #include "experiments/files/atomic_file.h"
 #include "experiments/files/csv.h"
-#include "experiments/files/text_table.h"
 #include "experiments/runtime/scene_store.h"
+#include "experiments/files/text_table.h"
 #include "tests/bench/rounds.h"
 
 #include <algorithm>
@@ -72,20 +72,18 @@ void print(const std::vector<Row>& rows) {
 }
 
 // The configurations of one scene in one interleaving: ratios are taken within a scene.
-void bench_scene_configurations(const gpu::Context& context, const std::vector<Configuration>& configurations,
-                                int rounds, std::vector<Row>& rows, std::vector<RoundRow>& round_rows) {
+void bench_scene_configurations(const gpu::Context& context, const std::vector<Configuration>& configurations, int rounds,
+                       std::vector<Row>& rows, std::vector<RoundRow>& round_rows) {
   std::vector<Contender> contenders;
   const Contender* plain = nullptr;
   for (const Configuration& configuration : configurations) {
-    contenders.push_back(
-        {configuration.run->labels.back(), [&] { return timed_frame(context, *configuration.tracer); }});
+    contenders.push_back({configuration.run->labels.back(), [&] { return timed_frame(context, *configuration.tracer); }});
   }
   run_rounds(contenders, rounds);
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     if (is_plain(configurations[i].run->config.render)) plain = &contenders[i];
   }
-  check(plain != nullptr, "{} has no configuration of plain BSDF sampling to compare with",
-        configurations.front().run->configuration);
+  check(plain != nullptr, "{} has no configuration of plain BSDF sampling to compare with", configurations.front().run->configuration);
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const Run& run = *configurations[i].run;
     const Contender& c = contenders[i];
@@ -129,8 +127,7 @@ void bench_frames(const gpu::Context& context, const FrameBenchOptions& options)
     std::vector<Configuration> configurations;
     for (; i < experiment.runs.size() && experiment.scene_file(experiment.runs[i]) == file; ++i) {
       const Run& run = experiment.runs[i];
-      configurations.push_back(
-          {&run, std::make_unique<Tracer>(context, scenes.load(file).scene, run.config.render)});
+      configurations.push_back({&run, std::make_unique<Tracer>(context, scenes.load(file).scene, run.config.render)});
     }
     bench_scene_configurations(context, configurations, options.rounds, rows, rounds);
   }
