@@ -160,6 +160,9 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
           {"frames", [](const R& row) { return CsvValue(static_cast<std::uint64_t>(row.frames.size())); }},
       });
   for (const Figure& figure : run_figures()) columns.push_back(figure.column);
+  columns.push_back({"table_given_up_after", [](const R& row) {
+                       return row.table_given_up ? CsvValue(std::uint64_t{*row.table_given_up}) : CsvValue();
+                     }});
   add_verdict_columns(columns);
   columns.push_back({"reference_hash", [](const R& row) { return CsvValue(row.reference_hash); }});
   columns.push_back({"config_hash", [](const R& row) { return CsvValue(row.config_hash); }});

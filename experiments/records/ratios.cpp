@@ -46,16 +46,25 @@ Side jackknife_variance(const std::vector<double>& values) {
   return {values.empty() ? 0 : squares * (count - 1) / count, values.size()};
 }
 
-std::vector<Curve> curves_of(const Configuration& configuration, const Metric& metric) {
-  std::vector<Curve> curves;
-  for (const RunRecord* run : configuration.members) curves.push_back(curve_of(*run, metric));
-  return curves;
-}
-
 // log(the baseline's seconds / the configuration's until it has the baseline's error), both mean curves.
 std::optional<double> log_time_ratio(const Curve& baseline, const Curve& configuration) {
   const auto time = time_to_error(configuration, baseline.back().error);
   return time ? std::optional(std::log(baseline.back().seconds / *time)) : std::nullopt;
+}
+
+// The curves of a configuration, one for each seed.
+struct SeedCurves {
+  std::vector<std::uint32_t> seeds;
+  std::vector<Curve> curves;
+};
+
+SeedCurves curves_of(const Configuration& configuration, const Metric& metric) {
+  SeedCurves result;
+  for (const RunRecord* run : configuration.members) {
+    result.seeds.push_back(run->run.config.render.seed);
+    result.curves.push_back(curve_of(*run, metric));
+  }
+  return result;
 }
 
 // `without(i)` for each seed; nothing where one of them is nothing or there is one seed alone.
@@ -80,30 +89,49 @@ std::optional<double> log_error_ratio(const Curve& baseline, const Curve& config
   return above && below ? std::optional(std::log(*above / *below)) : std::nullopt;
 }
 
-// Of two mean curves, whose logarithm of a ratio `log_ratio` gives.
-std::optional<Interval> curve_ratio(const std::vector<Curve>& baseline,
-                                    const std::vector<Curve>& configuration,
-                                    std::optional<double> (*log_ratio)(const Curve&, const Curve&)) {
+using LogRatio = std::optional<double> (*)(const Curve&, const Curve&);
+
+// The interval of a ratio of mean curves, `value` its logarithm, by leaving out the same seed of both.
+std::optional<Interval> paired_interval(double value, const std::vector<Curve>& baseline,
+                                        const std::vector<Curve>& configuration, LogRatio log_ratio) {
+  const auto both = leave_one_out(baseline.size(), [&](std::size_t i) {
+    return log_ratio(mean_curve(baseline, i), mean_curve(configuration, i));
+  });
+  return both ? std::optional(jackknife(value, *both, {})) : std::nullopt;
+}
+
+// The same by leaving out the seeds of each side apart.
+std::optional<Interval> unpaired_interval(double value, const std::vector<Curve>& baseline,
+                                          const std::vector<Curve>& configuration, LogRatio log_ratio) {
   const Curve baseline_mean = mean_curve(baseline);
   const Curve configuration_mean = mean_curve(configuration);
-  const auto value = log_ratio(baseline_mean, configuration_mean);
-  if (!value) return std::nullopt;
   const auto above = leave_one_out(
       baseline.size(), [&](std::size_t i) { return log_ratio(mean_curve(baseline, i), configuration_mean); });
   const auto below = leave_one_out(configuration.size(), [&](std::size_t i) {
     return log_ratio(baseline_mean, mean_curve(configuration, i));
   });
-  return above && below ? jackknife(*value, *above, *below) : Interval{std::exp(*value), {}, {}};
+  return above && below ? std::optional(jackknife(value, *above, *below)) : std::nullopt;
+}
+
+// Of two mean curves, whose logarithm of a ratio `log_ratio` gives.
+std::optional<Interval> curve_ratio(const SeedCurves& baseline, const SeedCurves& configuration,
+                                    LogRatio log_ratio) {
+  const auto value = log_ratio(mean_curve(baseline.curves), mean_curve(configuration.curves));
+  if (!value) return std::nullopt;
+  const bool is_paired = baseline.seeds.size() >= kFewestPairedSeeds && baseline.seeds == configuration.seeds;
+  const auto interval = (is_paired ? paired_interval : unpaired_interval)(*value, baseline.curves,
+                                                                          configuration.curves, log_ratio);
+  return interval ? interval : Interval{std::exp(*value), {}, {}};
 }
 
 TimeToError compare_times(const Configuration& baseline, const Configuration& configuration,
                           const Metric& metric) {
-  const std::vector<Curve> baseline_curves = curves_of(baseline, metric);
-  const std::vector<Curve> configuration_curves = curves_of(configuration, metric);
+  const SeedCurves baseline_curves = curves_of(baseline, metric);
+  const SeedCurves configuration_curves = curves_of(configuration, metric);
   TimeToError result;
-  if (baseline_curves.empty() || configuration_curves.empty()) return result;
-  result.target = mean_curve(baseline_curves).back().error;
-  result.time = time_to_error(configuration_curves, *result.target);
+  if (baseline_curves.curves.empty() || configuration_curves.curves.empty()) return result;
+  result.target = mean_curve(baseline_curves.curves).back().error;
+  result.time = time_to_error(configuration_curves.curves, *result.target);
   result.ratio = curve_ratio(baseline_curves, configuration_curves, log_time_ratio);
   return result;
 }

@@ -31,6 +31,12 @@ std::optional<Interval> ratio_of_means(const Estimate& above, const Estimate& be
 Interval jackknife(double log_value, const std::vector<double>& log_above,
                    const std::vector<double>& log_below);
 
+// From so many seeds on, the interval of a ratio that is read off two curves leaves out the same seed of
+// both, where both have the same seeds: their runs took turns, so that a machine that drifts slows both
+// alike. Right whatever the two share. With fewer, Student's t for so few differences takes back what that
+// gains.
+constexpr std::size_t kFewestPairedSeeds = 5;
+
 // How long a configuration takes to reach an error, read off the mean curve of its seeds.
 std::optional<Interval> time_to_error(const std::vector<Curve>& seeds, double target);
 

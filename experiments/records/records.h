@@ -63,6 +63,7 @@ struct RunRecord {
   std::vector<SnapshotRecord> snapshots;
   FireflyRecord fireflies;
   std::optional<Verdict> verdict;  // nothing where nothing was expected or the run did not finish
+  std::optional<std::uint32_t> table_given_up;  // after which frame (rl.trial_frames); 0: before the first
 
   std::vector<double> host_ms() const;  // without warm-up frames
   std::vector<double> gpu_ms() const;

@@ -115,6 +115,23 @@ std::string slope_lines(const std::vector<Configuration>& configurations) {
   return lines.empty() ? lines : "\nErrors that do not fall as 1/spp:\n" + lines;
 }
 
+// Where seeds decided differently, a configuration is a mixture of two kinds of runs.
+std::string trial_lines(const std::vector<Configuration>& configurations) {
+  std::string lines;
+  for (const Configuration& configuration : configurations) {
+    const auto without = std::ranges::count_if(
+        configuration.members, [](const RunRecord* run) { return run->table_given_up.has_value(); });
+    if (without == 0) continue;
+    const auto seeds = static_cast<std::ptrdiff_t>(configuration.members.size());
+    lines += fmt::format("- {}: given up by {} of {} runs{}\n", configuration.name, without, seeds,
+                         without == seeds ? ""
+                                          : "; the others kept it, and intervals over few runs of two kinds "
+                                            "are too narrow: raise the number of seeds, or set "
+                                            "rl.trial_frames to 0");
+  }
+  return lines.empty() ? lines : "\nTables given up after their trial (rl.trial_frames):\n" + lines;
+}
+
 std::string time_lines(const std::vector<RunRecord>& records) {
   const std::string lines = time_warnings(records);
   return lines.empty() ? lines : "\nTimes to be careful with:\n" + lines;
@@ -169,11 +186,11 @@ std::string notes(const Experiment& experiment) {
     text +=
         "\nRatios to the baseline: means over seeds, with 95 % intervals as if the seeds of the two were "
         "independent. Time to the baseline's relMSE: until the configuration's mean error is what the "
-        "baseline has at "
-        "its "
-        "end, between snapshots by straight lines in the logarithms; '-' where it was never reached, or "
-        "before "
-        "the first snapshot.\n";
+        "baseline has at its end, between snapshots by straight lines in the logarithms; '-' where it was "
+        "never reached, or before the first snapshot. For this and for relMSE at equal seconds, where both "
+        "have "
+        "the same seeds, five or more, the interval comes from pairs of runs with the same seed, which took "
+        "turns on the machine.\n";
   }
   if (!experiment.published.source.empty()) text += "\nPublished: " + experiment.published.source + "\n";
   if (!experiment.published.note.empty()) text += "\n" + experiment.published.note + "\n";
@@ -199,9 +216,9 @@ std::string experiment_table(const Experiment& experiment, const std::vector<Run
     text += fmt::format("\n## {}\n\n", scene) + configuration_table(experiment, rows) +
             ratio_lines(experiment, rows) + ratio_table(ratios, scene) + clamping_lines(rows);
   }
-  return text + slope_lines(configurations) + time_lines(records) + failure_lines(records) +
-         unfinished_lines(experiment, records) + verdict_lines(records) + reference_lines(references) +
-         notes(experiment);
+  return text + slope_lines(configurations) + trial_lines(configurations) + time_lines(records) +
+         failure_lines(records) + unfinished_lines(experiment, records) + verdict_lines(records) +
+         reference_lines(references) + notes(experiment);
 }
 
 }  // namespace qtrace::experiments

@@ -235,6 +235,7 @@ void Execution::note_trial(const Tracer& tracer, Progress& progress) {
                               {"needed", found->needed},       {"frame", found->frame},
                               {"decided", trial.is_decided()}, {"given_up", trial.gave_up()}};
   if (!trial.gave_up()) return;
+  record_.table_given_up = found->frame;
   warn(
       fmt::format("{} went without the table: frames without it had {:.3g} times the error of those with it, "
                   "which take {:.3g} times the work, and {:.3g} times would pay for that (rl.trial_frames)",

@@ -13,6 +13,7 @@ from analysis.statistics import Estimate, estimate, t_quantile
 from analysis.welch import Comparison, Side, welch
 
 FEWEST_POINTS = 3  # of a slope
+FEWEST_PAIRED_SEEDS = 5  # from so many on, a ratio of curves leaves out the same seed of both
 ENDS = ("", "_sd", "_low", "_high")
 
 
@@ -86,9 +87,11 @@ def curve_ratio(baseline: Sequence[Curve], configuration: Sequence[Curve],
     value = log_ratio(_mean(baseline), _mean(configuration))
     if math.isnan(value):
         return None
-    return jackknife(value, [log_ratio(_mean(baseline, i), _mean(configuration)) for i in range(len(baseline))]
-                     if len(baseline) > 1 else [],
-                     [log_ratio(_mean(baseline), _mean(configuration, i)) for i in range(len(configuration))] if len(configuration) > 1 else [])
+    seeds, others = range(len(baseline)), range(len(configuration))
+    if len(baseline) == len(configuration) >= FEWEST_PAIRED_SEEDS:  # the tests' sides have the same seeds
+        return jackknife(value, [log_ratio(_mean(baseline, i), _mean(configuration, i)) for i in seeds])
+    return jackknife(value, [log_ratio(_mean(baseline, i), _mean(configuration)) for i in seeds if len(baseline) > 1],
+                     [log_ratio(_mean(baseline), _mean(configuration, i)) for i in others if len(configuration) > 1])
 
 
 def log_time_ratio(baseline: Curve, configuration: Curve) -> float:

@@ -26,7 +26,7 @@ class ConfigurationsTest(FolderTest):
         super().setUp()
         config = {"name": "study", "scene": str(ROOT / "configs/scenes/simple.glb"), "width": 8, "height": 8,
                   "frames": 16, "flip": True, "reference": {"frames": 256}, "baseline": "uniform",
-                  "sweep": [{"sampler": ["uniform", "bsdf"]}, {"seed": [1, 2, 3, 4]}]}
+                  "sweep": [{"sampler": ["uniform", "bsdf"]}, {"seed": [1, 2, 3, 4, 5]}]}
         (self.folder / "study.json").write_text(json.dumps(config), encoding="utf-8")
         subprocess.run([BINARY, "run", "study.json"], cwd=self.folder, check=True, capture_output=True)
         self.results = self.folder / "results" / "study"
@@ -51,7 +51,7 @@ class ConfigurationsTest(FolderTest):
         self.assertEqual(list(written.configuration), list(runs.configuration.unique()))
         for _, row in written.iterrows():
             group = runs[runs.configuration == row.configuration]
-            self.assertEqual([row.frames, row.runs, row.seeds], [16, 4, 4])
+            self.assertEqual([row.frames, row.runs, row.seeds], [16, 5, 5])
             for figure in figures:
                 expected = figure_ends(group[figure], figure in signed)
                 for end in ENDS:
@@ -78,7 +78,7 @@ class ConfigurationsTest(FolderTest):
                 self.agree(getattr(run, f"slope_{metric}"), slope(curve, metric), 1, f"slope_{metric}")
             self.agree(run.host_ms_median, frames[~frames.is_warmup].host_ms.median(), 0, "host_ms_median")
             self.agree(run.relmse_x_s, curve.relmse.iloc[-1] * curve.elapsed_s.iloc[-1], 0, "relmse_x_s")
-        self.assertEqual(self.compared, 8 * 4)
+        self.assertEqual(self.compared, 10 * 4)
 
     def test_ratios(self) -> None:
         (_, row), = self.loaded.ratios.iterrows()

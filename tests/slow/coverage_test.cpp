@@ -55,6 +55,7 @@ RenderSettings small_settings(const Method& method, std::uint32_t seed) {
   settings.sampler = method.sampler;
   settings.nee = method.nee;
   settings.random = method.random;
+  settings.rl.trial_frames = 0;  // runs that decide differently are of two kinds: no interval over five holds
   settings.seed = seed;
   return settings;
 }
