@@ -26,9 +26,10 @@ constexpr double kSureEarly = 3;
 // The relative standard error above which the table is not given up yet: where a few blocks have most of the
 // error, it is itself uncertain, and a table that is lost costs more than one that is kept.
 constexpr double kSharp = 0.1;
-// The same in the pilot without light samples: few of its paths find light, and the table that these have
-// taught becomes much better yet.
-constexpr double kSharpWithoutNee = 0.05;
+// The same in the pilot where there are no light samples and less than half of the paths find light: the
+// table that these few have taught becomes much better yet. Under an open sky, every path finds light.
+constexpr double kSharpWhereLightIsRare = 0.05;
+constexpr std::uint64_t kPathsForEachThatFindsLight = 2;
 // The relative standard error above which a gain says nothing.
 constexpr double kBlunt = 0.25;
 // What a gain in the pilot may lack, as the table has seen few paths by then.
@@ -73,7 +74,7 @@ TableTrial::TableTrial(const RenderSettings& settings)
                 ? static_cast<std::uint32_t>(settings.rl.trial_frames)
                 : 0),
       random_(settings.random),
-      sharp_pilot_(settings.nee == Nee::none ? kSharpWithoutNee : kSharp) {}
+      has_light_samples_(settings.nee != Nee::none) {}
 
 void TableTrial::look_at_pilot(PilotLook seen) {
   const std::uint32_t tried = seen.frame - pilot_lessons();
@@ -87,7 +88,10 @@ void TableTrial::look_at_pilot(PilotLook seen) {
   const bool is_halfway = tried == 2 * unit_ && unit_ % 4 == 0;
   if (is_halfway || seen.frame == pilot_frames()) {
     finding_ = found(0, work_of(seen.counters[1], work_of(seen.counters[0])), seen.width);
-    judge_pilot(is_halfway);
+    const FrameCounters& without = seen.counters[0];
+    const bool is_light_rare =
+        without.paths - without.zero_paths < without.paths / kPathsForEachThatFindsLight;
+    judge_pilot(is_halfway, !has_light_samples_ && is_light_rare ? kSharpWhereLightIsRare : kSharp);
   }
   if (tried == unit_ || tried == 2 * unit_) tried_.mark();
   if (is_decided() || seen.frame == pilot_frames()) tried_ = {};
@@ -101,14 +105,14 @@ TableTrial::Finding TableTrial::found(std::uint32_t frame, double work, int widt
   return {frame, gain.value, gain.error, gain.found, work, needed};
 }
 
-void TableTrial::judge_pilot(bool is_halfway) {
+void TableTrial::judge_pilot(bool is_halfway, double sharp) {
   pilot_gain_ = finding_->gain;
   const double error = (is_halfway ? kSureEarly : kSure) * finding_->gain_error;
   // The first two points of a sequence do not show yet how steep the curve will be.
   const bool knows_needed = !is_halfway || random_ == RandomNumbers::independent;
   if (knows_needed && finding_->gain - error >= finding_->needed) {
     verdict_ = Verdict::keep;
-  } else if (tells(*finding_, sharp_pilot_) && finding_->gain + error < kYoung * finding_->needed) {
+  } else if (tells(*finding_, sharp) && finding_->gain + error < kYoung * finding_->needed) {
     verdict_ = Verdict::give_up;
   }
 }

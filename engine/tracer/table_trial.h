@@ -95,12 +95,13 @@ class TableTrial {
   bool takes_place(const Round& round) const;
   // What the frames tried so far say.
   Finding found(std::uint32_t frame, double work, int width) const;
-  void judge_pilot(bool is_halfway);
+  // `sharp`: the relative standard error of a gain with which it may give the table up.
+  void judge_pilot(bool is_halfway, double sharp);
   void conclude(bool is_last);
 
   std::uint32_t unit_;  // rl.trial_frames; 0: no trial
   RandomNumbers random_;
-  double sharp_pilot_;  // the relative standard error of a gain with which the pilot may give the table up
+  bool has_light_samples_;
   Verdict verdict_ = Verdict::open;
   std::optional<Finding> finding_;
   double pilot_gain_ = 1;    // what the pilot found last

@@ -47,6 +47,19 @@ TEST(TableTrial, GivesTheTableUpUnderAnEvenSkyAndLeavesNoTrace) {
   }
 }
 
+// With Sobol' points, seeds whose pilot is least certain.
+TEST(TableTrial, DecidesUnderAnEvenSkyBeforeTheFirstFrame) {
+  RenderSettings settings = settings_of(Nee::one_ray);
+  settings.width = settings.height = 128;
+  settings.max_bounces = settings.russian_roulette_start = 8;
+  settings.environment = {1, 1, 1};
+  settings.random = RandomNumbers::sobol;
+  for (const std::uint32_t seed : {7U, 9U, 12U, 14U, 15U, 17U, 20U}) {
+    settings.seed = seed;
+    EXPECT_TRUE(rendered("open_sky.glb", settings, 1).trial().gave_up()) << seed;
+  }
+}
+
 // What the pilot took stands in the first frame's counts: its time does, too.
 TEST(TableTrial, CountsItsPilotInTheFirstFrame) {
   RenderSettings settings = settings_of(Nee::one_ray);
