@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 namespace qtrace::gltf {
 namespace {
@@ -9,6 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kLights = "KHR_lights_punctual";
+constexpr std::string_view kIor = "KHR_materials_ior";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::array<std::string_view, 2> kSupported{"KHR_materials_emissive_strength",
                                                      "KHR_materials_specular"};
@@ -27,16 +30,60 @@ std::string item_label(std::string_view kind, std::size_t index, const json& ite
   return label(kind, index, item.value("name", ""));
 }
 
+// The names of all extensions that stand somewhere, at any depth that parse_json() lets files nest; not in
+// extras.
+void add_extensions(const json& value, std::set<std::string>& names) {
+  if (!value.is_structured()) return;
+  for (const auto& [key, member] : value.items()) {
+    if (value.is_object() && key == "extras") continue;
+    if (value.is_object() && key == "extensions" && member.is_object()) {
+      for (const auto& extension : member.items()) names.insert(extension.key());
+    }
+    add_extensions(member, names);
+  }
+}
+
+double number_of(const json& object, std::string_view name, double otherwise) {
+  const json& value = member(object, name);
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+// Whether the index of refraction of KHR_materials_ior is another than the default, and a dielectric reflects
+// by it.
+bool needs_ior(const json& material) {
+  const json& extensions = member(material, "extensions");
+  const bool is_default = number_of(member(extensions, kIor), "ior", 1.5) == 1.5;
+  const bool is_dielectric = number_of(member(material, "pbrMetallicRoughness"), "metallicFactor", 1) < 1;
+  const bool reflects = number_of(member(extensions, "KHR_materials_specular"), "specularFactor", 1) > 0;
+  return !is_default && is_dielectric && reflects;
+}
+
+// Whether the picture is exact although the extension is not modelled.
+bool changes_nothing(const json& document, const std::string& extension) {
+  return extension == kIor && std::ranges::none_of(member(document, "materials"), needs_ior);
+}
+
 void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const json& required : member(document, "extensionsRequired")) {
     const auto name = required.get<std::string>();
     source.check(is_supported(name), "the required extension {} is not supported; supported are {}", name,
                  joined(kSupported, " and "));
   }
+  std::set<std::string> declared;
   for (const json& used : member(document, "extensionsUsed")) {
     const auto name = used.get<std::string>();
-    if (is_supported(name) || (name == kLights && names_lights)) continue;
+    declared.insert(name);
+    if (is_supported(name) || (name == kLights && names_lights) || changes_nothing(document, name)) continue;
     source.warn("extension {} is not modelled; the scene is read without it", name);
+  }
+  std::set<std::string> undeclared;
+  add_extensions(document, undeclared);
+  for (const std::string& name : undeclared) {
+    if (declared.contains(name)) continue;
+    source.warn("extension {} is used but not declared in extensionsUsed; {}", name,
+                is_supported(name) || changes_nothing(document, name)
+                    ? "it is read as if it were"
+                    : "it is not modelled, and the scene is read without it");
   }
 }
 

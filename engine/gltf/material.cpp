@@ -1,5 +1,6 @@
 #include "engine/gltf/material.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace qtrace::gltf {
@@ -22,6 +23,8 @@ class Factors {
     return {scalar(property, value[0], max), scalar(property, value[1], max),
             scalar(property, value[2], max)};
   }
+
+  const std::string& material() const { return material_; }
 
  private:
   const Source& source_;
@@ -47,11 +50,35 @@ void read_specular(const tinygltf::Material& file, const Factors& factors, Mater
   }
 }
 
-void read_emission(const tinygltf::Material& file, const Factors& factors, Material& material) {
+// Of emitted radiance. A film sums squares of radiance over up to a million frames in single precision, which
+// ends at 3e38.
+constexpr float kMostEmission = 1e12F;
+
+void read_emission(Source& source, const tinygltf::Material& file, const Factors& factors,
+                   Material& material) {
   const tinygltf::Value* value = find_property(file, "KHR_materials_emissive_strength", "emissiveStrength");
   const float strength =
       value == nullptr ? 1 : factors.scalar("emissiveStrength", value->GetNumberAsDouble(), kNoLimit);
-  material.emission = strength * factors.rgb("emissiveFactor", file.emissiveFactor, 1);
+  const glm::vec3 factor = factors.rgb("emissiveFactor", file.emissiveFactor, kNoLimit);
+  material.emission = strength * factor;
+  for (int c = 0; c < 3; ++c) {
+    source.check(material.emission[c] <= kMostEmission,
+                 "{}: emits {:g}, emissiveFactor times emissiveStrength; up to {:g} would be right",
+                 factors.material(), static_cast<double>(factor[c]) * static_cast<double>(strength),
+                 kMostEmission);
+  }
+  if (std::max({factor.r, factor.g, factor.b}) > 1) {
+    source.warn("{}: emissiveFactor is {:g} {:g} {:g}, where glTF ends at 1; it is read as it stands",
+                factors.material(), factor.r, factor.g, factor.b);
+  }
+  if (file.emissiveTexture.index >= 0 && material.emission != glm::vec3(0)) {
+    source.warn(
+        "{}: emits nothing, as its emissiveTexture is not modelled, and the factor alone would make a lamp "
+        "of "
+        "all of its surface",
+        factors.material());
+    material.emission = glm::vec3(0);
+  }
 }
 
 void warn_of_textures(Source& source, const tinygltf::Material& file, const std::string& name) {
@@ -63,7 +90,6 @@ void warn_of_textures(Source& source, const tinygltf::Material& file, const std:
   note(file.pbrMetallicRoughness.metallicRoughnessTexture.index, "metallicRoughnessTexture");
   note(file.normalTexture.index, "normalTexture");
   note(file.occlusionTexture.index, "occlusionTexture");
-  note(file.emissiveTexture.index, "emissiveTexture");
   for (const char* slot : {"specularTexture", "specularColorTexture"}) {
     if (find_property(file, "KHR_materials_specular", slot) != nullptr) slots.emplace_back(slot);
   }
@@ -85,7 +111,7 @@ Material read_material(Source& source, std::size_t index) {
   material.roughness = factors.scalar("roughnessFactor", pbr.roughnessFactor, 1);
   material.double_sided = file.doubleSided;
   read_specular(file, factors, material);
-  read_emission(file, factors, material);
+  read_emission(source, file, factors, material);
   warn_of_textures(source, file, name);
   if (file.alphaMode != "OPAQUE") {
     source.warn("{}: alphaMode {} is not modelled; the material is opaque", name, file.alphaMode);

@@ -54,7 +54,16 @@ void check_acyclic(const Source& source, const std::vector<std::size_t>& parents
   }
 }
 
-std::vector<std::size_t> find_roots(const Source& source, const std::vector<std::size_t>& parents) {
+// Whether one of the ancestors of `node` is in `listed`.
+bool comes_with_ancestor(std::size_t node, const std::vector<std::size_t>& parents,
+                         const std::set<int>& listed) {
+  for (std::size_t up = parents[node]; up != kNone; up = parents[up]) {
+    if (listed.contains(static_cast<int>(up))) return true;
+  }
+  return false;
+}
+
+std::vector<std::size_t> find_roots(Source& source, const std::vector<std::size_t>& parents) {
   std::vector<std::size_t> roots;
   if (source.model.scenes.empty()) {
     for (std::size_t node = 0; node < parents.size(); ++node) {
@@ -63,19 +72,49 @@ std::vector<std::size_t> find_roots(const Source& source, const std::vector<std:
     return roots;
   }
   const auto scene = static_cast<std::size_t>(std::max(source.model.defaultScene, 0));
+  const std::vector<int>& nodes = source.model.scenes[scene].nodes;
+  const std::set<int> listed(nodes.begin(), nodes.end());
   std::set<int> seen;
-  for (const int index : source.model.scenes[scene].nodes) {
+  for (const int index : nodes) {
     const auto node = static_cast<std::size_t>(index);
     source.check(seen.insert(index).second, "the scene lists {} twice; once would be right",
                  node_label(source, node));
-    source.check(parents[node] == kNone, "the scene lists {}, which has a parent; only roots would be right",
-                 node_label(source, node));
-    roots.push_back(node);
+    if (parents[node] == kNone) {
+      roots.push_back(node);
+      continue;
+    }
+    // Without the ancestor it could stand where that puts it or where its own transform does.
+    source.check(
+        comes_with_ancestor(node, parents, listed),
+        "the scene lists {}, but not its parent {}, so that nothing says whether the parent moves it; only "
+        "roots would be right",
+        node_label(source, node), node_label(source, parents[node]));
+    source.warn("the scene lists {} beside an ancestor, which brings it anyway; it is read once",
+                node_label(source, node));
   }
   return roots;
 }
 
-glm::dmat4 local_transform(const Source& source, std::size_t index) {
+// So far from 1 the length of a rotation may be by rounding alone, and so far by carelessness: then it is
+// still clear what was meant.
+constexpr double kRoundedRotation = 1e-3;
+constexpr double kCarelessRotation = 0.0101;
+
+glm::dmat4 rotation_matrix(Source& source, std::size_t index) {
+  const std::vector<double>& file = source.model.nodes[index].rotation;
+  const glm::dquat rotation(file[3], file[0], file[1], file[2]);
+  const double length = glm::length(rotation);
+  const double error = std::abs(length - 1);
+  source.check(error < kCarelessRotation, "{}: the rotation has length {}; a unit quaternion would be right",
+               node_label(source, index), length);
+  if (error >= kRoundedRotation) {
+    source.warn("{}: the rotation has length {} in place of 1; it is normalised", node_label(source, index),
+                length);
+  }
+  return glm::mat4_cast(rotation / length);
+}
+
+glm::dmat4 local_transform(Source& source, std::size_t index) {
   const tinygltf::Node& node = source.model.nodes[index];
   if (!node.matrix.empty()) {
     const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
@@ -88,14 +127,7 @@ glm::dmat4 local_transform(const Source& source, std::size_t index) {
   if (!node.translation.empty()) {
     transform = glm::translate(transform, glm::make_vec3(node.translation.data()));
   }
-  if (!node.rotation.empty()) {
-    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = glm::length(rotation);
-    source.check(std::abs(length - 1) < 1e-3,
-                 "{}: the rotation has length {}; a unit quaternion would be right",
-                 node_label(source, index), length);
-    transform *= glm::mat4_cast(rotation / length);
-  }
+  if (!node.rotation.empty()) transform *= rotation_matrix(source, index);
   if (!node.scale.empty()) transform = glm::scale(transform, glm::make_vec3(node.scale.data()));
   return transform;
 }
@@ -116,7 +148,7 @@ std::string node_label(const Source& source, std::size_t index) {
   return label("node", index, source.model.nodes[index].name);
 }
 
-std::vector<PlacedNode> place_nodes(const Source& source) {
+std::vector<PlacedNode> place_nodes(Source& source) {
   const std::vector<std::size_t> parents = find_parents(source);
   check_acyclic(source, parents);
   std::vector<PlacedNode> pending;

@@ -16,8 +16,9 @@ struct PlacedNode {
 };
 
 // The nodes of the default scene, else of the first, else all; parents before children, siblings in order.
-// Error where the nodes do not form trees.
-std::vector<PlacedNode> place_nodes(const Source& source);
+// Error where the nodes do not form trees. Warnings name rotations that are not quite of length 1, and nodes
+// that the scene lists although it lists an ancestor.
+std::vector<PlacedNode> place_nodes(Source& source);
 
 std::string node_label(const Source& source, std::size_t index);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace qtrace::gltf {
 namespace {
@@ -113,6 +115,71 @@ void visit(const Source& source, const json& document, json& value, std::string_
   if (member != value.end()) enter(std::string(name), *member);
 }
 
+// The indices of textures that materials use, and of the images of these.
+struct UsedParts {
+  std::set<std::size_t> textures;
+  std::set<std::size_t> images;
+};
+
+void add_index(const json& object, const char* name, std::set<std::size_t>& indices) {
+  if (!object.is_object()) return;
+  const auto found = object.find(name);
+  if (found != object.end() && found->is_number_unsigned()) indices.insert(found->get<std::size_t>());
+}
+
+// Of anything called ...Texture, at any depth: extensions have some, too. As deep as parse_json() lets files
+// nest.
+void add_textures(const json& value, std::set<std::size_t>& textures) {
+  if (!value.is_structured()) return;
+  for (const auto& [key, member] : value.items()) {
+    if (value.is_object() && key.ends_with("Texture")) add_index(member, "index", textures);
+    add_textures(member, textures);
+  }
+}
+
+UsedParts used_parts(const json& document) {
+  UsedParts used;
+  const auto materials = document.find("materials");
+  if (materials != document.end()) add_textures(*materials, used.textures);
+  const auto textures = document.find("textures");
+  if (textures == document.end() || !textures->is_array()) return used;
+  for (const std::size_t i : used.textures) {
+    if (i < textures->size()) add_index((*textures)[i], "source", used.images);
+  }
+  return used;
+}
+
+// A rule for the elements of an array of which some, or all, may be used by nothing.
+void visit_unused(Source& source, json& document, const Rule& rule, std::string_view array,
+                  const std::set<std::size_t>& used) {
+  const auto found = document.find(array);
+  if (found == document.end() || !found->is_array()) {
+    return visit(source, document, document, rule.path, "", rule);
+  }
+  const std::string_view rest = rule.path.substr(array.size() + std::string_view("/[]/").size());
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    const std::string where = fmt::format("{}[{}]", array, i);
+    if (used.contains(i)) {
+      visit(source, document, (*found)[i], rest, where, rule);
+      continue;
+    }
+    try {
+      visit(source, document, (*found)[i], rest, where, rule);
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      source.warn("{}; it is left out, as nothing uses it", message.substr(source.file.size() + 2));
+    }
+  }
+}
+
+void visit_rule(Source& source, json& document, const Rule& rule, const UsedParts& used) {
+  if (rule.path.starts_with("textures/"))
+    return visit_unused(source, document, rule, "textures", used.textures);
+  if (rule.path.starts_with("images/")) return visit_unused(source, document, rule, "images", used.images);
+  if (rule.path.starts_with("animations/")) return visit_unused(source, document, rule, "animations", {});
+  visit(source, document, document, rule.path, "", rule);
+}
+
 // tinygltf would drop the three without a word.
 void check_transform(const Source& source, const json& node, std::size_t index) {
   const bool has_parts = node.contains("translation") || node.contains("rotation") || node.contains("scale");
@@ -123,8 +190,9 @@ void check_transform(const Source& source, const json& node, std::size_t index) 
 
 }  // namespace
 
-void check_json(const Source& source, json& document) {
-  for (const Rule& rule : kRules) visit(source, document, document, rule.path, "", rule);
+void check_json(Source& source, json& document) {
+  const UsedParts used = used_parts(document);
+  for (const Rule& rule : kRules) visit_rule(source, document, rule, used);
   const auto nodes = document.find("nodes");
   for (std::size_t i = 0; nodes != document.end() && i < nodes->size(); ++i) {
     check_transform(source, (*nodes)[i], i);

@@ -9,8 +9,8 @@
 namespace qtrace::gltf {
 
 // Checks the type of every property that the loader reads (rules.h), and that every index points at
-// something.
+// something; a warning where that is in a texture, an image or an animation that nothing uses.
 // Turns integers that stand for numbers into floating point, for tinygltf would wrap them.
-void check_json(const Source& source, nlohmann::json& document);
+void check_json(Source& source, nlohmann::json& document);
 
 }  // namespace qtrace::gltf

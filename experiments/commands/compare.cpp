@@ -2,6 +2,7 @@
 
 #include "engine/core/check.h"
 #include "experiments/files/text_table.h"
+#include "experiments/images/exr_layers.h"
 #include "experiments/images/exr_picture.h"
 #include "experiments/measure/flip.h"
 #include "experiments/measure/heat_map.h"
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -87,23 +89,51 @@ std::string draw_heat_map(const CompareOptions& options, const RadianceImage& im
   return line + '\n';
 }
 
+// Where no layer of its own is named, that of the image.
+Picture read_reference(const CompareOptions& options) {
+  if (!options.reference_layer.empty()) return read_picture(options.reference, options.reference_layer);
+  check(options.layer.empty() || has_layer(options.reference, options.layer),
+        "{}: has no layer '{}', which {} has; --reference-layer names the one to compare with ('{}': its "
+        "channels "
+        "outside any layer)",
+        options.reference.string(), options.layer, options.image.string(), kRootLayer);
+  return read_picture(options.reference, options.layer);
+}
+
+std::size_t non_finite_pixels(const RadianceImage& image) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      image.mean, [](const glm::dvec3& pixel) { return !std::isfinite(pixel.r + pixel.g + pixel.b); }));
+}
+
+// What the metrics leave out, before any of them; Error where that is everything.
+std::string non_finite_line(const ErrorMetrics& errors, const RadianceImage& image,
+                            const RadianceImage& reference, const CompareOptions& options) {
+  if (errors.non_finite == 0) return "";
+  const std::size_t of_image = non_finite_pixels(image), of_reference = non_finite_pixels(reference);
+  check(errors.non_finite < image.pixels(),
+        "{}: no pixel is finite both there ({} of {} are not) and in the reference {} ({}), so that nothing "
+        "can be "
+        "compared",
+        options.image.string(), of_image, image.pixels(), options.reference.string(), of_reference);
+  return fmt::format(
+      "left out: {} of {} pixels, which are not finite ({} in the image, {} in the reference)\n",
+      errors.non_finite, image.pixels(), of_image, of_reference);
+}
+
 }  // namespace
 
 std::string compare_files(const CompareOptions& options) {
   if (!options.heat.empty()) check_heat_file(options.heat);
   const Picture image = read_picture(options.image, options.layer);
-  std::string reference_layer = options.reference_layer;
-  if (reference_layer.empty() && !options.layer.empty() && has_layer(options.reference, options.layer)) {
-    reference_layer = options.layer;
-  }
-  const Picture reference = read_picture(options.reference, reference_layer);
+  const Picture reference = read_reference(options);
   const Overlap same = overlap(image, reference, options);
   const RadianceImage a = crop(image, same.image), r = crop(reference, same.reference);
   ErrorMetrics errors = compare_images(a, r);
+  const std::string left_out = non_finite_line(errors, a, r, options);
   errors.flip = flip_error(a, r);
   std::string text = source_line("image", options.image, image, same.image) +
-                     source_line("reference", options.reference, reference, same.reference) + '\n' +
-                     metric_table(errors, a.pixels());
+                     source_line("reference", options.reference, reference, same.reference) + left_out +
+                     '\n' + metric_table(errors, a.pixels());
   if (!options.heat.empty()) text += draw_heat_map(options, a, r);
   return text;
 }
@@ -116,8 +146,7 @@ void add_compare_command(CLI::App& app, Action& action) {
       ->required();
   compare->add_option("REFERENCE", options.reference, "the same, perhaps with variances")->required();
   compare->add_option("--layer", options.layer, "the layer or part to compare, where there are several");
-  compare->add_option("--reference-layer", options.reference_layer,
-                      "of the reference (default: --layer where it has that, else its main image)");
+  compare->add_option("--reference-layer", options.reference_layer, "of the reference (default: --layer)");
   compare->add_option("--heat", options.heat,
                       "writes the error of every pixel: .png in false colours, .exr the values");
   std::vector<std::string> names;

@@ -12,7 +12,7 @@ struct CompareOptions {
   std::filesystem::path image;
   std::filesystem::path reference;
   std::string layer{};                 // empty: chosen as exr_layers.h says
-  std::string reference_layer{};       // empty: `layer` where the reference has it, else chosen
+  std::string reference_layer{};       // empty: `layer`
   std::filesystem::path heat{};        // empty: no heat map
   std::string heat_metric = "relmse";  // of those that have errors per pixel
   double heat_top = 0;                 // 0: as heat_map.h says

@@ -57,12 +57,14 @@ trap 'out_of_time=1; kill -TERM "$!"' USR1
 trap : TERM
 )";
 
-// `wait` returns at every signal, hence the loop.
+// `wait` returns at every signal, hence the loop. The job id of an array's last task is that of the array, by
+// which scontrol would queue all its tasks again: a task is named by the array's id and its own number.
 constexpr const char* kWaitForProgram = R"(
 while kill -0 "$!" 2>/dev/null; do wait "$!"; done
 wait "$!"
 code=$?
-if [ -n "${out_of_time:-}" ] && [ "$code" -eq 143 ]; then scontrol requeue "$SLURM_JOB_ID"; fi
+task=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}
+if [ -n "${out_of_time:-}" ] && [ "$code" -eq 143 ]; then scontrol requeue "${task:-$SLURM_JOB_ID}"; fi
 exit "$code"
 )";
 

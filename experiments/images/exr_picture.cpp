@@ -11,11 +11,15 @@
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace qtrace::experiments {
 namespace {
@@ -35,8 +39,42 @@ PixelBox box_of(const Imath::Box2i& window) {
   return {window.min.x, window.min.y, window.max.x, window.max.y};
 }
 
+// More than any primaries of light need; NaN, too, is not below it.
+const glm::dvec3 kHugeWeight(1e6);
+
+// Of the primaries' coordinates: those of Rec. 709 are written with three or four digits.
+constexpr double kSamePrimaries = 5e-4;
+
+// From the file's RGB to linear Rec. 709; nothing where it says that it has just that, or says nothing.
+std::optional<glm::dmat3> to_rec709(const Imf::Header& header, const ExrLayer& layer) {
+  const bool is_rgb = layer.kind == LayerKind::rgb || layer.kind == LayerKind::luminance_chroma;
+  if (!is_rgb || !Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& said = Imf::chromaticities(header);
+  const auto point = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
+  const Primaries file{point(said.red), point(said.green), point(said.blue), point(said.white)};
+  const auto differs = [](const glm::dvec2& a, const glm::dvec2& b) {
+    return !(glm::all(glm::lessThanEqual(glm::abs(a - b), glm::dvec2(kSamePrimaries))));
+  };
+  if (!differs(file.red, kRec709.red) && !differs(file.green, kRec709.green) &&
+      !differs(file.blue, kRec709.blue) && !differs(file.white, kRec709.white)) {
+    return std::nullopt;
+  }
+  const glm::dmat3 result = glm::inverse(kRec709ToXyz) * rgb_to_xyz(file);
+  bool is_finite = true;
+  for (int i = 0; i < 3; ++i)
+    is_finite = is_finite && glm::all(glm::lessThan(glm::abs(result[i]), kHugeWeight));
+  check(
+      is_finite,
+      "its chromaticities (red {:g} {:g}, green {:g} {:g}, blue {:g} {:g}, white {:g} {:g}) span no triangle "
+      "of colours; those of Rec. 709 are 0.64 0.33, 0.3 0.6, 0.15 0.06, 0.3127 0.329",
+      file.red.x, file.red.y, file.green.x, file.green.y, file.blue.x, file.blue.y, file.white.x,
+      file.white.y);
+  return result;
+}
+
 std::vector<std::string> variance_channels(const Imf::Header& header, const ExrLayer& layer) {
-  if (layer.kind != LayerKind::rgb || layer.name != kRootLayer) return {};
+  // What becomes of a variance in other primaries depends on covariances, which no file has.
+  if (layer.kind != LayerKind::rgb || layer.name != kRootLayer || to_rec709(header, layer)) return {};
   std::vector<std::string> names;
   for (const char* name : {"variance.R", "variance.G", "variance.B"}) {
     const Imf::Channel* channel = header.channels().findChannel(name);
@@ -130,10 +168,15 @@ Picture read_picture(const fs::path& file, const std::string& wanted) {
       const glm::dmat3 to_rgb = glm::inverse(kRec709ToXyz);
       for (glm::dvec3& pixel : picture.image.mean) pixel = to_rgb * pixel;
     }
+    const auto converted = to_rec709(header, layer);
+    if (converted) {
+      for (glm::dvec3& pixel : picture.image.mean) pixel = *converted * pixel;
+    }
     picture.data = box_of(header.dataWindow());
     picture.display = box_of(header.displayWindow());
     picture.layer = layer.name;
     picture.channels = describe(layer);
+    if (converted) picture.channels += " (of the file's own primaries, as linear Rec. 709)";
     return picture;
   } catch (const Error& error) {
     fail("{}: {}", file.string(), error.what());

@@ -5,6 +5,7 @@
 #include "experiments/runtime/manifest.h"
 
 #include <algorithm>
+#include <map>
 
 namespace qtrace::experiments {
 namespace {
@@ -18,42 +19,67 @@ Json without_execution(Json config) {
   return config;
 }
 
-std::string shown(const Json& config, const std::string& path) {
-  const Json* value = &config;
-  std::size_t start = 0;
-  while (start <= path.size()) {
-    const std::size_t dot = std::min(path.find('.', start), path.size());
-    const auto found = value->is_object() ? value->find(path.substr(start, dot - start)) : value->end();
-    if (!value->is_object() || found == value->end()) return "absent";
-    value = &*found;
-    start = dot + 1;
-  }
+std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 60;
-  const std::string text = show(*value);
+  const std::string text = show(value);
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-void add_config_changes(const Json& before, const Json& now, std::vector<std::string>& changes) {
-  std::vector<std::string> paths = leaf_paths(before);
-  for (const std::string& path : leaf_paths(now)) {
-    if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+// What is no object with members, by its dotted path. Names on the way may hold dots, too, so that nothing
+// can be found by such a path.
+void add_leaves(const Json& object, const std::string& prefix, std::map<std::string, Json>& leaves) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object() && !value.empty()) {
+      add_leaves(value, prefix + key + '.', leaves);
+    } else {
+      leaves[prefix + key] = value;
+    }
   }
-  for (const std::string& path : paths) {
-    const std::string was = shown(before, path);
-    const std::string is = shown(now, path);
-    if (was != is) changes.push_back(fmt::format("key '{}' was {} and is {}", path, was, is));
+}
+
+void add_config_changes(const Json& before, const Json& now, std::vector<std::string>& changes) {
+  std::map<std::string, Json> earlier, later;
+  add_leaves(before, "", earlier);
+  add_leaves(now, "", later);
+  for (const auto& [path, was] : earlier) {
+    const auto is = later.find(path);
+    if (is == later.end()) {
+      changes.push_back(fmt::format("key '{}' was {} and is absent", path, shown(was)));
+    } else if (is->second != was) {
+      changes.push_back(fmt::format("key '{}' was {} and is {}", path, shown(was), shown(is->second)));
+    }
+  }
+  for (const auto& [path, is] : later) {
+    if (!earlier.contains(path))
+      changes.push_back(fmt::format("key '{}' was absent and is {}", path, shown(is)));
   }
   if (changes.empty() && canonical_text(before) != canonical_text(now)) {
     changes.emplace_back("the config differs");
   }
 }
 
+// `what`: of the device or the program.
 void add_part_changes(const char* part, const char* what, const Json& earlier, const Json& now,
                       std::vector<std::string>& changes) {
   const Json before = earlier.value(part, Json::object());
   for (const auto& [name, value] : now.at(part).items()) {
-    if (before.contains(name) && before.at(name) == value) continue;
-    changes.push_back(fmt::format("{} '{}' was {} and is {}", what, name, shown(before, name), show(value)));
+    const auto was = before.find(name);
+    if (was != before.end() && *was == value) continue;
+    changes.push_back(fmt::format("{} '{}' was {} and is {}", what, name,
+                                  was == before.end() ? "absent" : shown(*was), shown(value)));
+  }
+}
+
+// The hashes of the scenes would tell nobody anything.
+void add_scene_changes(const Json& earlier, const Json& now, std::vector<std::string>& changes) {
+  const Json before = earlier.value("scenes", Json::object());
+  for (const auto& [name, hash] : now.at("scenes").items()) {
+    const auto was = before.find(name);
+    if (was == before.end()) {
+      changes.push_back(fmt::format("scene '{}' is new", name));
+    } else if (*was != hash) {
+      changes.push_back(fmt::format("the content of scene '{}' has changed", name));
+    }
   }
 }
 
@@ -109,7 +135,7 @@ std::vector<std::string> identity_changes(const Json& earlier, const Json& now) 
   std::vector<std::string> changes;
   add_config_changes(without_execution(earlier.value("config", Json::object())),
                      without_execution(now.at("config")), changes);
-  add_part_changes("scenes", "the content of scene", earlier, now, changes);
+  add_scene_changes(earlier, now, changes);
   add_part_changes("device", "the device's", earlier, now, changes);
   add_part_changes("program", "the program's", earlier, now, changes);
   return changes;

@@ -169,6 +169,20 @@ class SweepTest(unittest.TestCase):
             self.assertIn("interrupted by SIGTERM", self.log(out, f"shard-{shard}"))
         self.assert_same_results(out)
 
+    def test_the_last_task_that_is_out_of_time_queues_itself_alone(self) -> None:
+        """The job id of an array's last task is that of the array."""
+        out = "late"
+        _, shards, merge = self.submit(out)
+        for shard in range(1, SHARDS):
+            self.wait_for_checkpoint(out, shard)
+        self.wait_for_checkpoint(out, SHARDS)
+        self.cluster.command("scancel", "--batch", "--signal=USR1", f"{shards}_{SHARDS}")
+        self.cluster.wait(lambda: self.cluster.job(f"{shards}_{SHARDS}")["Restarts"] == "1", "the last shard back in the queue")
+        self.assertEqual(self.wait_for_end(merge)["ExitCode"], "0:0", self.logs(out))
+        restarts = [self.cluster.job(f"{shards}_{shard}")["Restarts"] for shard in range(1, SHARDS + 1)]
+        self.assertEqual(restarts, ["0"] * (SHARDS - 1) + ["1"], self.logs(out))
+        self.assert_same_results(out)
+
     def test_what_is_cancelled_stays_so_until_it_is_submitted_again(self) -> None:
         out = "cancelled"
         _, shards, merge = self.submit(out)

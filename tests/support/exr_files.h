@@ -8,12 +8,14 @@
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ struct TestPart {
   std::string name;
   Imath::Box2i data{{0, 0}, {2, 1}};
   Imath::Box2i display{{0, 0}, {2, 1}};
+  std::optional<Imf::Chromaticities> chromaticities{};
 };
 
 // Planes in the type of each channel, and a frame buffer of them.
@@ -73,6 +76,7 @@ inline Imf::Header header_of(const TestPart& part) {
   for (const TestChannel& channel : part.channels)
     header.channels().insert(channel.name, Imf::Channel(channel.type));
   if (!part.name.empty()) header.setName(part.name);
+  if (part.chromaticities) Imf::addChromaticities(header, *part.chromaticities);
   return header;
 }
 

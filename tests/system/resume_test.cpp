@@ -165,7 +165,7 @@ TEST_F(Resume, ChangedConfigsScenesAndProgramsAreNotMixed) {
   write_small_scene(folder_, "scene", Light::off);
   const Outcome dark = again("changed");
   EXPECT_EQ(dark.exit_code, 1);
-  EXPECT_TRUE(contains(dark.err, "the content of scene 'scene.gltf' was")) << dark.err;
+  EXPECT_TRUE(contains(dark.err, "the content of scene 'scene.gltf' has changed")) << dark.err;
   write_small_scene(folder_, "scene");
   Json manifest = json("results/changed/manifest.json");
   manifest["program"]["binary"] = "another";

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace qtrace::experiments {
 namespace {
 
@@ -84,9 +86,12 @@ TEST_F(Compare, LayersAreChosenForEachFile) {
   tests::write_scan_lines(options_.image, image);
   tests::write_scan_lines(options_.reference, rgb(1, kFrame, kFrame));
   expect(compare(), {"mse                 4 "});
-  options_.layer = "filtered";  // the reference has none, so its main image stands for it
+  options_.layer = "filtered";
+  expect(compare(), {"r.exr: has no layer 'filtered', which ", "a.exr has; --reference-layer names the one"});
+  options_.reference_layer = "<root>";
   expect(compare(), {"a.exr: channels filtered.R, filtered.G, filtered.B\n", "mse                 25 "});
-  options_.reference = options_.image;  // and here it has
+  options_.reference = options_.image;
+  options_.reference_layer = "";
   expect(compare(), {"mse                 0 "});
   options_.reference_layer = "<root>";
   expect(compare(), {"mse                 9 "});
@@ -101,6 +106,17 @@ TEST_F(Compare, LayersAreChosenForEachFile) {
   options_.reference = options_.image;
   options_.reference_layer = "beauty";
   expect(compare(), {"has no layer 'beauty'; its layers are: <root> (R, G, B), filtered ("});
+}
+
+TEST_F(Compare, PixelsThatAreNotFiniteAreCountedFirst) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
+  tests::write_scan_lines(options_.reference, rgb(1, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}));
+  write_exr(options_.image, {2, 1, {{"R", {3, nan}}, {"G", {3, 1}}, {"B", {3, 1}}}, {}});
+  expect(compare(),
+         {"left out: 1 of 2 pixels, which are not finite (1 in the image, 0 in the reference)\n\n"});
+  write_exr(options_.image, {2, 1, {{"R", {3, nan}}, {"G", {-infinity, 1}}, {"B", {infinity, 1}}}, {}});
+  expect(compare(), {"a.exr: no pixel is finite both there (2 of 2 are not) and in the reference "});
 }
 
 TEST_F(Compare, TheHeatMapHasTheErrorOfEveryPixel) {

@@ -149,6 +149,49 @@ TEST_F(ExrPicture, TristimulusValuesBecomeRec709) {
   EXPECT_NEAR(x.b, 0.0557, 1e-3);
 }
 
+Imf::Chromaticities rec2020() {
+  return {{0.708F, 0.292F}, {0.170F, 0.797F}, {0.131F, 0.046F}, {0.3127F, 0.3290F}};
+}
+
+// ITU-R BT.2087-0, M2, has the matrix to four digits: what one unit of each primary is in Rec. 709.
+TEST_F(ExrPicture, OtherPrimariesBecomeRec709) {
+  const Imath::Box2i pixel{{0, 0}, {0, 0}};
+  const std::vector<std::pair<glm::dvec3, glm::dvec3>> known{{{1, 0, 0}, {1.6605, -0.1246, -0.0182}},
+                                                             {{0, 1, 0}, {-0.5876, 1.1329, -0.1006}},
+                                                             {{0, 0, 1}, {-0.0728, -0.0083, 1.1187}},
+                                                             {{2, 2, 2}, {2, 2, 2}}};
+  for (const auto& [rgb, rec709] : known) {
+    tests::write_scan_lines(
+        file_,
+        {{{"R", rgb.r}, {"G", rgb.g}, {"B", rgb.b}, {"variance.R", 1}, {"variance.G", 1}, {"variance.B", 1}},
+         "",
+         pixel,
+         pixel,
+         rec2020()});
+    const Picture picture = read_picture(file_);
+    EXPECT_EQ(picture.channels, "R, G, B (of the file's own primaries, as linear Rec. 709)");
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.image.mean[0][c], rec709[c], 2e-4);
+    EXPECT_EQ(picture.image.samples, 0U) << "a variance in other primaries is unknown";
+  }
+}
+
+TEST_F(ExrPicture, Rec709BySaysSoIsLeftAlone) {
+  const Imf::Chromaticities rounded{{0.64F, 0.33F}, {0.3F, 0.6F}, {0.15F, 0.06F}, {0.313F, 0.329F}};
+  tests::write_scan_lines(file_,
+                          {{{"R", 1}, {"G", 2}, {"B", 3}}, "", {{0, 0}, {2, 1}}, {{0, 0}, {2, 1}}, rounded});
+  expect_pixels(read_picture(file_), {1, 2, 3});
+  // Of another layer than a colour, they say nothing.
+  tests::write_scan_lines(file_, {{{"Y", 2}}, "", {{0, 0}, {2, 1}}, {{0, 0}, {2, 1}}, rec2020()});
+  expect_pixels(read_picture(file_), {2, 2, 2});
+}
+
+TEST_F(ExrPicture, PrimariesThatSpanNothingAreRefused) {
+  const Imf::Chromaticities flat{{0.6F, 0.3F}, {0.6F, 0.3F}, {0.15F, 0.06F}, {0.3127F, 0.329F}};
+  tests::write_scan_lines(file_,
+                          {{{"R", 1}, {"G", 2}, {"B", 3}}, "", {{0, 0}, {2, 1}}, {{0, 0}, {2, 1}}, flat});
+  EXPECT_TRUE(contains(refusal(), "image.exr: its chromaticities (red 0.6 0.3, ")) << refusal();
+}
+
 TEST_F(ExrPicture, SubsampledChromaBecomesRgb) {
   {
     Imf::RgbaOutputFile output(file_.c_str(), 4, 4, Imf::WRITE_YC);

@@ -80,7 +80,7 @@ TEST_F(GltfMaterialTest, RefusesFactorsOutOfRange) {
       {"/pbrMetallicRoughness/metallicFactor", -0.1},
       {"/pbrMetallicRoughness/metallicFactor", 1.1},
       {"/pbrMetallicRoughness/roughnessFactor", 2},
-      {"/emissiveFactor", {0, 1.25, 0}},
+      {"/emissiveFactor", {0, -1.25, 0}},
       {"/extensions/KHR_materials_emissive_strength/emissiveStrength", -1},
       {"/extensions/KHR_materials_specular/specularFactor", 1.5},
       {"/extensions/KHR_materials_specular/specularColorFactor", {0, -2, 0}},
@@ -98,7 +98,41 @@ TEST_F(GltfMaterialTest, RefusesFactorsOutOfRange) {
   expect_error({"materials[0].pbrMetallicRoughness.baseColorFactor is an array; an array of 4 numbers"});
 }
 
+TEST_F(GltfMaterialTest, ReadsEmissiveFactorsAboveOneWithAWarning) {
+  material()["emissiveFactor"] = {4, 12, 100};
+  expect_warning(
+      "material 'wood': emissiveFactor is 4 12 100, where glTF ends at 1; it is read as it stands");
+  EXPECT_EQ(load().materials.at(0).emission, glm::vec3(4, 12, 100));
+}
+
+TEST_F(GltfMaterialTest, RefusesLampsWhoseSquaresNoFloatHolds) {
+  gltf.json["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+  material()["emissiveFactor"] = {1, 0.5, 0};
+  strength() = 1e12;
+  EXPECT_EQ(load().materials.at(0).emission.r, 1e12F);
+  for (const double value : {1.1e12, 1e30, 3e38}) {
+    strength() = value;
+    expect_error({fmt::format(
+        "material 'wood': emits {:g}, emissiveFactor times emissiveStrength; up to 1e+12", value)});
+  }
+  strength() = 3e38;
+  material()["emissiveFactor"] = {100, 0, 0};  // infinite as a float
+  expect_error({"material 'wood': emits 3e+40, "});
+}
+
+TEST_F(GltfMaterialTest, AnEmissiveTextureMakesNoLampOfItsSurface) {
+  gltf.json["textures"] = {nlohmann::json::object()};
+  material()["emissiveTexture"] = {{"index", 0}};
+  EXPECT_TRUE(load().warnings.empty()) << "black times anything is black";
+  material()["emissiveFactor"] = {1, 1, 1};
+  expect_warning(
+      "material 'wood': emits nothing, as its emissiveTexture is not modelled, and the factor alone would "
+      "make a lamp of all of its surface");
+  EXPECT_EQ(load().materials.at(0).emission, glm::vec3(0));
+}
+
 TEST_F(GltfMaterialTest, WarnsOfTexturesAndNeverReadsThem) {
+  gltf.json["extensionsUsed"] = {"KHR_materials_specular"};
   const nlohmann::json texture = {{"index", 0}};
   gltf.json["images"] = {{{"uri", "../../missing.png"}}, {{"bufferView", 0}, {"mimeType", "image/png"}}};
   gltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
@@ -110,7 +144,7 @@ TEST_F(GltfMaterialTest, WarnsOfTexturesAndNeverReadsThem) {
   specular() = {{"specularTexture", texture}, {"specularColorTexture", texture}};
   expect_warning(
       "material 'wood': baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, "
-      "emissiveTexture, specularTexture, specularColorTexture are not modelled; the factors alone are "
+      "specularTexture, specularColorTexture are not modelled; the factors alone are "
       "used");
 }
 

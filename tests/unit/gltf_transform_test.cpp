@@ -168,13 +168,35 @@ TEST_F(GltfTransformTest, RefusesNodesThatFormNoTree) {
   expect_error({"node 'thing' is a child of node 'eye' and again of node 'parent'"});
   camera_node().erase("children");
   gltf.json["scenes"][0]["nodes"] = {0, 1};
-  expect_error({"the scene lists node 'thing', which has a parent"});
+  expect_error({"the scene lists node 'thing', but not its parent node 'parent'"});
   gltf.json["scenes"][0]["nodes"] = {0, 2, 2};
   expect_error({"the scene lists node 'parent' twice"});
   gltf.json["scenes"][0]["nodes"] = {0, 2};
   gltf.json["nodes"][2].erase("children");
   node()["children"] = {1};
   expect_error({"node 'thing' is its own ancestor"});
+}
+
+TEST_F(GltfTransformTest, ANodeThatIsListedBesideItsAncestorIsReadOnce) {
+  add_parent({{"name", "parent"}, {"translation", {0, 0, 7}}});
+  gltf.json["scenes"][0]["nodes"] = {1, 0, 2};
+  expect_warning("the scene lists node 'thing' beside an ancestor, which brings it anyway; it is read once");
+  EXPECT_EQ(load().triangles.size(), 1U);
+  EXPECT_EQ(load().triangles.at(0).position[0].z, 7);
+}
+
+TEST_F(GltfTransformTest, RotationsOfNearlyUnitLengthAreNormalised) {
+  const Triangle exact = load().triangles.at(0);
+  for (const double length : {0.99, 0.998, 1.01}) {
+    node()["rotation"] = {0, 0, 0, length};
+    expect_warning(
+        fmt::format("node 'thing': the rotation has length {} in place of 1; it is normalised", length));
+    EXPECT_EQ(load().triangles.at(0).position, exact.position);
+  }
+  node()["rotation"] = {0, 0, 0, 0.9999};
+  EXPECT_TRUE(load().warnings.empty());
+  node()["rotation"] = {0, 0, 0, 0.985};
+  expect_error({"node 'thing': the rotation has length 0.985"});
 }
 
 TEST_F(GltfTransformTest, RefusesUnusableTransforms) {

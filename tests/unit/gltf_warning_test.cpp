@@ -1,6 +1,8 @@
 // What a file may hold beside what is modelled: a warning each.
 #include "tests/unit/gltf_builder.h"
 
+#include <array>
+
 namespace qtrace {
 namespace {
 
@@ -12,6 +14,57 @@ class GltfWarningTest : public GltfTest {
 TEST_F(GltfWarningTest, WarnsOfExtensions) {
   gltf.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_specular"};
   expect_warning("extension KHR_materials_clearcoat is not modelled; the scene is read without it");
+}
+
+TEST_F(GltfWarningTest, WarnsOfExtensionsThatAreNotDeclared) {
+  gltf.json["materials"] = {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}};
+  expect_warning(
+      "extension KHR_materials_transmission is used but not declared in extensionsUsed; it is not modelled, "
+      "and the "
+      "scene is read without it");
+  gltf.json["extensionsUsed"] = {"KHR_materials_transmission"};
+  expect_warning("extension KHR_materials_transmission is not modelled; the scene is read without it");
+  gltf.json.erase("extensionsUsed");
+  gltf.json["materials"] = {{{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.5}}}}}}};
+  expect_warning(
+      "extension KHR_materials_specular is used but not declared in extensionsUsed; it is read as if it "
+      "were");
+  gltf.json["materials"] = {{{"extras", {{"extensions", {{"EXT_mine", {{"x", 1}}}}}}}}};
+  EXPECT_TRUE(load().warnings.empty()) << "extras are whatever their author likes";
+}
+
+TEST_F(GltfWarningTest, WarnsOfAnIndexOfRefractionWhereItShows) {
+  gltf.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular"};
+  nlohmann::json& material = (gltf.json["materials"] = {nlohmann::json::object()})[0];
+  const auto seen = [&](double ior, double specular, double metallic) {
+    material["extensions"] = {{"KHR_materials_ior", {{"ior", ior}}},
+                              {"KHR_materials_specular", {{"specularFactor", specular}}}};
+    material["pbrMetallicRoughness"] = {{"metallicFactor", metallic}};
+    return load().warnings;
+  };
+  const std::vector<std::string> warned{
+      "extension KHR_materials_ior is not modelled; the scene is read without it"};
+  EXPECT_EQ(seen(1.33, 0.5, 0.5), warned);
+  for (const auto& [ior, specular, metallic] : {std::array{1.5, 0.5, 0.5}, {1.33, 0, 0.5}, {1.33, 0.5, 1}}) {
+    EXPECT_TRUE(seen(ior, specular, metallic).empty()) << ior << ' ' << specular << ' ' << metallic;
+  }
+}
+
+TEST_F(GltfWarningTest, WhatIsBrokenAndUsedByNothingIsLeftOut) {
+  gltf.json["textures"] = {{{"source", 7}}};
+  expect_warning(
+      "textures[0].source is 7; an index below 0, the number of images, would be right; it is left out, as "
+      "nothing uses it");
+  gltf.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  expect_error({"textures[0].source is 7; an index below 0"});
+  gltf.json.erase("materials");
+  gltf.json["textures"] = {{{"source", 0}}};
+  gltf.json["images"] = {{{"bufferView", 99}}};
+  expect_warning(
+      "images[0].bufferView is 99; an index below 1, the number of bufferViews, would be right; it is left "
+      "out, as nothing uses it");
+  gltf.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  expect_error({"images[0].bufferView is 99; an index below 1"});
 }
 
 TEST_F(GltfWarningTest, WarnsOfLights) {

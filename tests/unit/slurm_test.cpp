@@ -31,7 +31,8 @@ constexpr const char* kScontrol = "#!/bin/bash\necho \"$*\" >> \"$(dirname \"$0\
 // Runs a script as a job, sends a signal to it ("USR1") or to all its processes ("-TERM") when the program
 // has started, and tells how the job ended.
 constexpr const char* kJob = R"(
-export PATH="$1:$PATH" SLURM_JOB_ID=77 SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=3
+export PATH="$1:$PATH" SLURM_JOB_ID=77 SLURM_CPUS_PER_TASK=3
+if [ -n "$3" ]; then export SLURM_ARRAY_JOB_ID=77 SLURM_ARRAY_TASK_ID=$3; fi  # as Slurm does for the last task
 set -m  # a process group of its own
 bash "$1/job.sbatch" & job=$!
 if [ -n "$2" ]; then
@@ -60,10 +61,12 @@ class SlurmScripts : public testing::Test {
                          fs::path(options_.out) / "x" / "slurm");
   }
 
-  // The exit code of the array's script.
-  int run_job(const std::string& signal) const {
-    folder_.write("job.sbatch", scripts().at(1).text);
-    return run_program({"bash", "-c", kJob, "bash", folder_.path().string(), signal}).exit_code;
+  // The exit code of the array's script, as its task 2.
+  int run_job(const std::string& signal) const { return run_job(signal, 1, "2"); }
+
+  int run_job(const std::string& signal, std::size_t script, const std::string& task) const {
+    folder_.write("job.sbatch", scripts().at(script).text);
+    return run_program({"bash", "-c", kJob, "bash", folder_.path().string(), signal, task}).exit_code;
   }
 
   bool asked_for_another_turn() const { return fs::exists(folder_ / "scontrol_words"); }
@@ -117,8 +120,18 @@ TEST_F(SlurmScripts, AskForAnotherTurnWhenTheTimeIsUp) {
   folder_.write("at_term", "143");
   EXPECT_EQ(run_job("USR1"), 143);
   ASSERT_TRUE(asked_for_another_turn());
-  EXPECT_EQ(folder_.read("scontrol_words"), "requeue 77\n");
+  EXPECT_EQ(folder_.read("scontrol_words"), "requeue 77_2\n");  // not 77: that is the whole array
   EXPECT_EQ(folder_.read("signals"), "TERM\nend\n");
+}
+
+TEST_F(SlurmScripts, OfOneTaskAskForTheirJob) {
+  folder_.write("at_term", "143");
+  for (const std::size_t script : {0U, 2U}) {
+    EXPECT_EQ(run_job("USR1", script, ""), 143);
+    EXPECT_EQ(folder_.read("scontrol_words"), "requeue 77\n");
+    fs::remove(folder_ / "scontrol_words");
+    fs::remove(folder_ / "words");
+  }
 }
 
 TEST_F(SlurmScripts, DoNotReturnWhenTheyAreCancelled) {
