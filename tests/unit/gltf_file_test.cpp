@@ -97,10 +97,7 @@ TEST_F(GltfFileTest, RefusesEveryIndexOutOfRange) {
       {"/bufferViews/0/buffer", "buffers"},
       {"/materials/0/normalTexture/index", "textures"},
       {"/materials/0/pbrMetallicRoughness/baseColorTexture/index", "textures"},
-      {"/textures/0/source", "images"},
-      {"/images/0/bufferView", "bufferViews"},
       {"/skins/0/joints/0", "nodes"},
-      {"/animations/0/samplers/0/input", "accessors"},
   };
   for (const auto& [path, target] : indices) {
     for (const long long value : {1000LL, -1LL, 1LL << 32}) {  // tinygltf would take 1 << 32 for 0
