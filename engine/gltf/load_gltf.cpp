@@ -46,17 +46,18 @@ void read_source(Source& source, FileContent content, const std::filesystem::pat
   source.model.buffers = std::move(buffers);
 }
 
-Scene make_scene(FileContent content, const std::filesystem::path& file, const SceneLimits& limits) {
+Scene make_scene(FileContent content, const std::filesystem::path& file, const View& view,
+                 const SceneLimits& limits) {
   Source source{file.string(), {}, {}, 0};
   read_source(source, std::move(content), file, limits.file_bytes);
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);
-  std::vector<PlacedNode> nodes = place_nodes(source);
+  std::vector<PlacedNode> nodes = place_nodes(source, view.scene);
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
-  scene.camera = read_camera(source, nodes);
   add_objects(source, nodes, scene);
+  add_camera(source, nodes, view, scene);
   drop_duplicates(source, scene);
   scene.warnings = std::move(source.warnings);
   if (source.more_warnings > 0) {
@@ -68,14 +69,14 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const S
 }  // namespace
 }  // namespace gltf
 
-Scene load_gltf(const std::filesystem::path& file) {
+Scene load_gltf(const std::filesystem::path& file, const View& view) {
   gltf::FileContent content = gltf::split_content(gltf::read_scene_file(file), file);
-  return gltf::make_scene(std::move(content), file, {});
+  return gltf::make_scene(std::move(content), file, view, {});
 }
 
-Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file,
+Scene parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& file, const View& view,
                  const SceneLimits& limits) {
-  return gltf::make_scene(gltf::split_content(bytes, file), file, limits);
+  return gltf::make_scene(gltf::split_content(bytes, file), file, view, limits);
 }
 
 }  // namespace qtrace

@@ -63,16 +63,43 @@ bool comes_with_ancestor(std::size_t node, const std::vector<std::size_t>& paren
   return false;
 }
 
-std::vector<std::size_t> find_roots(Source& source, const std::vector<std::size_t>& parents) {
+// The index of the scene that is meant; there is one at least.
+std::size_t choose_scene(Source& source, const NameOrIndex& wanted) {
+  const std::vector<tinygltf::Scene>& scenes = source.model.scenes;
+  if (!wanted.is_given()) {
+    if (scenes.size() > 1 && source.model.defaultScene < 0) {
+      source.warn(
+          "the file has {} scenes and says of none that it is the default; the first is read (key "
+          "'gltf_scene' "
+          "chooses)",
+          scenes.size());
+    }
+    return static_cast<std::size_t>(std::max(source.model.defaultScene, 0));
+  }
+  std::vector<std::size_t> found;
+  std::string there;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (wanted.index ? *wanted.index == i : wanted.name == scenes[i].name) found.push_back(i);
+    there += (there.empty() ? "" : ", ") + label("scene", i, scenes[i].name);
+  }
+  source.check(found.size() == 1, "key 'gltf_scene' is {}, but there {}; the file has {}", wanted.text(),
+               found.empty() ? "is none of this name or index" : "are several of this name", there);
+  return found.front();
+}
+
+std::vector<std::size_t> find_roots(Source& source, const std::vector<std::size_t>& parents,
+                                    const NameOrIndex& wanted) {
   std::vector<std::size_t> roots;
   if (source.model.scenes.empty()) {
+    source.check(!wanted.is_given(),
+                 "key 'gltf_scene' is {}, but the file names no scenes; all of its nodes are one",
+                 wanted.text());
     for (std::size_t node = 0; node < parents.size(); ++node) {
       if (parents[node] == kNone) roots.push_back(node);
     }
     return roots;
   }
-  const auto scene = static_cast<std::size_t>(std::max(source.model.defaultScene, 0));
-  const std::vector<int>& nodes = source.model.scenes[scene].nodes;
+  const std::vector<int>& nodes = source.model.scenes[choose_scene(source, wanted)].nodes;
   const std::set<int> listed(nodes.begin(), nodes.end());
   std::set<int> seen;
   for (const int index : nodes) {
@@ -148,11 +175,11 @@ std::string node_label(const Source& source, std::size_t index) {
   return label("node", index, source.model.nodes[index].name);
 }
 
-std::vector<PlacedNode> place_nodes(Source& source) {
+std::vector<PlacedNode> place_nodes(Source& source, const NameOrIndex& scene) {
   const std::vector<std::size_t> parents = find_parents(source);
   check_acyclic(source, parents);
   std::vector<PlacedNode> pending;
-  const std::vector<std::size_t> roots = find_roots(source, parents);
+  const std::vector<std::size_t> roots = find_roots(source, parents, scene);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
 
   // A stack of our own: a file may nest nodes deeper than the call stack.

@@ -22,6 +22,7 @@ inline constexpr std::string_view kTypes = "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4
 
 inline constexpr Rule kRules[] = {
     {"scene", Kind::index, "scenes"},
+    {"scenes/[]/name", Kind::string},
     {"scenes/[]/nodes/[]", Kind::index, "nodes"},
     {"nodes/[]/name", Kind::string},
     {"nodes/[]/children/[]", Kind::index, "nodes"},
@@ -73,6 +74,12 @@ inline constexpr Rule kRules[] = {
     {"cameras/[]/type!", Kind::one_of, "perspective orthographic"},
     {"cameras/[]/perspective/yfov!", Kind::number},
     {"cameras/[]/perspective/znear!", Kind::number},
+    {"cameras/[]/perspective/zfar", Kind::number},
+    {"cameras/[]/perspective/aspectRatio", Kind::number},
+    {"cameras/[]/orthographic/xmag!", Kind::number},
+    {"cameras/[]/orthographic/ymag!", Kind::number},
+    {"cameras/[]/orthographic/znear!", Kind::number},
+    {"cameras/[]/orthographic/zfar!", Kind::number},
     {"textures/[]/source", Kind::index, "images"},
     {"textures/[]/sampler", Kind::index, "samplers"},
     {"images/[]/bufferView", Kind::index, "bufferViews"},

@@ -54,7 +54,8 @@ struct Object {
 // Looks along -z of `world_from_camera`, y up, as in glTF. The image's aspect ratio decides the width.
 struct Camera {
   glm::mat4 world_from_camera{1.0F};  // rotation and translation only
-  float vertical_fov = 1.0F;          // radians, in (0, pi)
+  float vertical_fov = 1.0F;          // radians, in (0, pi); of a perspective camera
+  float film_height = 0;  // of an orthographic camera, in units of the world; 0: a perspective one
 };
 
 struct Scene {

@@ -10,14 +10,15 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   const auto whole = [](int value) { return static_cast<gpu::uint>(value); };
   const auto real = [](double value) { return static_cast<float>(value); };
   const RlSettings& rl = settings.rl;
-  const float up = std::tan(camera.vertical_fov / 2);
+  const bool is_flat = camera.film_height > 0;
+  const float up = is_flat ? camera.film_height / 2 : std::tan(camera.vertical_fov / 2);
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   const glm::mat4& m = camera.world_from_camera;
   const auto& e = settings.environment;
   gpu::Parameters p{};
   p.camera_origin = m[3];
-  p.camera_right = m[0] * (up * aspect);
-  p.camera_up = m[1] * up;
+  (is_flat ? p.film_right : p.camera_right) = m[0] * (up * aspect);
+  (is_flat ? p.film_up : p.camera_up) = m[1] * up;
   p.camera_forward = -m[2];
   const float brightest = std::max(features.brightest, real((e[0] + e[1] + e[2]) / 3));
   p.environment = glm::vec3(real(e[0]), real(e[1]), real(e[2]));

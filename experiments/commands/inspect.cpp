@@ -55,11 +55,11 @@ RunConfig config_of(const Json& manifest, const fs::path& file) {
   return config;
 }
 
-LoadedScene load_scene(const fs::path& file, const std::string& hash) {
+LoadedScene load_scene(const fs::path& file, const View& view, const std::string& hash) {
   check(fs::is_regular_file(file),
         "{}: the scene of this run is not there; inspect it from the folder where it was run", file.string());
   SceneStore store;
-  LoadedScene scene = store.load(file);
+  LoadedScene scene = store.load(file, view);
   check(scene.hash == hash,
         "{}: this scene has changed since the run (its hash was {} and is {}), so that the table's cells lie "
         "elsewhere; "
@@ -87,7 +87,8 @@ InspectedRun read_inspected_run(const fs::path& folder, std::optional<int> frame
         "inspected",
         folder.string(), enum_name(run.config.render.sampler));
   run.table = read_saved_table(folder, frame);
-  run.scene = load_scene(text_at(manifest, file, "scene", "file"), text_at(manifest, file, "scene", "hash"));
+  run.scene = load_scene(text_at(manifest, file, "scene", "file"), view_of(run.config),
+                         text_at(manifest, file, "scene", "hash"));
   return run;
 }
 

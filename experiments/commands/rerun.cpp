@@ -143,8 +143,9 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
   for (const auto& [axis, label] : manifest.at("axes").items()) experiment.axes.push_back({axis, false, {}});
   const Run& run = experiment.runs.front();
   SceneStore scenes;
-  const LoadedScene& scene = scenes.load(scene_file(part(manifest, "scene", file), file));
-  const LoadedScene& shown = scenes.load(scene_file(part(manifest, "reference_scene", file), file));
+  const View view = view_of(run.config);
+  const LoadedScene& scene = scenes.load(scene_file(part(manifest, "scene", file), file), view);
+  const LoadedScene& shown = scenes.load(scene_file(part(manifest, "reference_scene", file), file), view);
   check(scene.hash == manifest.at("scene").value("hash", ""),
         "{}: the content of {} is not what was rendered then: its hash was {} and is {}", file.string(),
         scene.file.string(), manifest.at("scene").value("hash", ""), scene.hash);

@@ -106,6 +106,11 @@ void check_random_numbers(const RenderSettings& render, const Expectation& expec
 
 }  // namespace
 
+View view_of(const RunConfig& config) {
+  return {config.gltf_scene, config.camera,
+          static_cast<double>(config.render.width) / static_cast<double>(config.render.height)};
+}
+
 std::string variance_note(const RenderSettings& settings) {
   if (settings.random == RandomNumbers::independent) return "of the mean, from the samples of the pixel";
   if (settings.replicates > 1)

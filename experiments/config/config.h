@@ -3,7 +3,9 @@
 
 #include "engine/core/filter_settings.h"
 #include "engine/core/settings.h"
+#include "engine/scene/view.h"
 #include "experiments/config/json_knobs.h"
+#include "experiments/config/view_knobs.h"
 #include "experiments/measure/expectation.h"
 
 #include <array>
@@ -101,6 +103,8 @@ namespace qtrace::experiments {
 struct RunConfig {
   std::string name;
   std::string scene;
+  NameOrIndex gltf_scene;
+  CameraChoice camera;
   RenderSettings render;
   int frames = 64;
   int warmup_frames = 1;
@@ -119,6 +123,20 @@ template <class Visitor>
 void visit_knobs(Visitor& visit, RunConfig& config) {
   visit(KnobInfo{"name", "", "the experiment's name: its folder under the results"}, config.name);
   visit(KnobInfo{"scene", "path", "glTF file (.gltf or .glb), relative to the config file"}, config.scene);
+  visit(KnobInfo{.name = "gltf_scene",
+                 .unit = "",
+                 .help = "which scene of the file, where it has several; empty: its default",
+                 .implied = "\"\""},
+        config.gltf_scene);
+  visit(
+      KnobInfo{
+          .name = "camera",
+          .unit = "",
+          .help =
+              "what is seen: through a camera of the file (empty: its first), from a place (fov: vertical), "
+              "or fit: everything, from the front and a little above",
+          .implied = "\"\""},
+      config.camera);
   visit_knobs(visit, config.render);
   visit(KnobInfo{"frames", "frames", "length of the run; a frame is one sample per pixel", 1, 1e6},
         config.frames);
@@ -159,6 +177,9 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
 
 // The keys that change neither a pixel nor what is measured: results that differ in them alone are the same.
 inline constexpr std::array<std::string_view, 2> kKeysOfExecution{"checkpoint_s", "frame_timeout_s"};
+
+// What a run shows of its scene's file, and its reference of its own.
+View view_of(const RunConfig& config);
 
 // What the variance beside an image's mean is: files and manifests say it.
 std::string variance_note(const RenderSettings& settings);

@@ -361,7 +361,12 @@ void Execution::warn(const std::string& warning, Progress& progress) {
 std::string light_warning(const LoadedScene& scene, const RunConfig& config) {
   const auto& environment = config.render.environment;
   const bool lit = has_light(scene.scene) || *std::max_element(environment.begin(), environment.end()) > 0;
-  return lit ? "" : fmt::format("{}: the scene has no light: the image will be black", scene.file.string());
+  return lit ? ""
+             : fmt::format(
+                   "{}: the scene has no light: the image will be black; key 'environment' gives it a sky, "
+                   "as "
+                   "[1, 1, 1]",
+                   scene.file.string());
 }
 
 std::unique_ptr<RunFiles> make_run_files(const std::filesystem::path& folder, const ExrMetadata& metadata,

@@ -33,6 +33,7 @@ std::string scene_hash(const Scene& scene) {
   }
   hasher.add(scene.camera.world_from_camera);
   hasher.add(scene.camera.vertical_fov);
+  hasher.add_later("film_height", scene.camera.film_height, 0.0F);
   return hasher.digest();
 }
 

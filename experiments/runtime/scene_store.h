@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@ namespace qtrace::experiments {
 
 struct LoadedScene {
   std::filesystem::path file;
+  View view;
   Scene scene;
   std::string hash;  // of its content, see hash.h
 };
@@ -18,13 +20,14 @@ struct LoadedScene {
 class SceneStore {
  public:
   // The reference stays valid as long as the store. Throws Error that names the file.
-  const LoadedScene& load(const std::filesystem::path& file);
-
-  const std::map<std::filesystem::path, LoadedScene>& all() const { return scenes_; }
+  const LoadedScene& load(const std::filesystem::path& file, const View& view = {});
 
  private:
-  std::map<std::filesystem::path, LoadedScene> scenes_;
+  std::map<std::string, LoadedScene> scenes_;  // by file and view
 };
+
+// The parts of a view that are not the file's own, for people: "", or ", camera \"fit\"".
+std::string view_text(const View& view);
 
 // Whether any triangle emits.
 bool has_light(const Scene& scene);

@@ -8,8 +8,9 @@ ExperimentInputs::ExperimentInputs(const Experiment& experiment, SceneStore& sce
                                    const gpu::DeviceInfo& device) {
   runs_.reserve(experiment.runs.size());
   for (const Run& run : experiment.runs) {
-    const LoadedScene& scene = scenes.load(experiment.scene_file(run));
-    const LoadedScene& shown = scenes.load(experiment.reference_file(run));
+    const View view = view_of(run.config);
+    const LoadedScene& scene = scenes.load(experiment.scene_file(run), view);
+    const LoadedScene& shown = scenes.load(experiment.reference_file(run), view);
     ReferenceSpec reference = reference_spec(run.config, shown.hash);
     runs_.push_back(run_inputs(run, scene, shown, reference, device));
     specs_.emplace(reference.hash, std::move(reference));

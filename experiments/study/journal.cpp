@@ -26,7 +26,7 @@ bool met_expectation(const RunRecord& record) {
   return record.status == RunStatus::finished && !(record.verdict && record.verdict->word == "fail");
 }
 
-Journal::Journal(const Experiment& experiment, const SceneStore& scenes, const gpu::DeviceInfo& device,
+Journal::Journal(const Experiment& experiment, SceneStore& scenes, const gpu::DeviceInfo& device,
                  const ReferenceStore& references, fs::path folder)
     : experiment_(experiment),
       references_(references),

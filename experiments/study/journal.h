@@ -19,7 +19,7 @@ namespace qtrace::experiments {
 
 class Journal {
  public:
-  Journal(const Experiment& experiment, const SceneStore& scenes, const gpu::DeviceInfo& device,
+  Journal(const Experiment& experiment, SceneStore& scenes, const gpu::DeviceInfo& device,
           const ReferenceStore& references, std::filesystem::path folder);
 
   // A run that ended or was stopped; one of the same place is replaced. Writes the files unless that was done

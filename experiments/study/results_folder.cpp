@@ -116,14 +116,14 @@ std::optional<std::string> difference(const fs::path& folder, const Json& identi
 
 }  // namespace
 
-Json identity_json(const Experiment& experiment, const SceneStore& scenes, const gpu::DeviceInfo& device) {
+Json identity_json(const Experiment& experiment, SceneStore& scenes, const gpu::DeviceInfo& device) {
   Json hashes = Json::object();
-  for (const auto& [file, scene] : scenes.all()) {
-    const bool is_used = std::ranges::any_of(experiment.runs, [&](const Run& run) {
-      return experiment.scene_file(run).lexically_normal() == file ||
-             experiment.reference_file(run).lexically_normal() == file;
-    });
-    if (is_used) hashes[file.lexically_relative(experiment.folder()).string()] = scene.hash;
+  for (const Run& run : experiment.runs) {
+    const View view = view_of(run.config);
+    for (const fs::path& file : {experiment.scene_file(run), experiment.reference_file(run)}) {
+      const fs::path name = file.lexically_normal().lexically_relative(experiment.folder());
+      hashes[name.string() + view_text(view)] = scenes.load(file, view).hash;
+    }
   }
   return {{"config", experiment.config},
           {"scenes", std::move(hashes)},

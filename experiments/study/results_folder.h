@@ -17,7 +17,7 @@
 namespace qtrace::experiments {
 
 // All that decides an experiment's results, as its manifest has it: config, scenes, device, program.
-Json identity_json(const Experiment& experiment, const SceneStore& scenes, const gpu::DeviceInfo& device);
+Json identity_json(const Experiment& experiment, SceneStore& scenes, const gpu::DeviceInfo& device);
 
 // What differs between the identities in two manifests, one phrase each; empty where results of both may
 // stand side by side.

@@ -2,12 +2,19 @@
 #include "shared/parameters.glsl"
 #include "shared/work_groups.glsl"
 
-// The camera ray's unit direction through `position`, in pixels from the upper left corner of the image.
-vec3 camera_direction(vec2 position) {
+struct CameraRay {
+  vec3 origin;
+  vec3 direction;  // unit
+};
+
+// Through `position`, in pixels from the upper left corner of the image.
+CameraRay camera_ray(vec2 position) {
   vec2 size = vec2(parameters.image_size);
   vec2 ndc = vec2(2.0 * position.x / size.x - 1.0, 1.0 - 2.0 * position.y / size.y);
-  return normalize(parameters.camera_forward.xyz + ndc.x * parameters.camera_right.xyz +
-                   ndc.y * parameters.camera_up.xyz);
+  return CameraRay(parameters.camera_origin.xyz + ndc.x * parameters.film_right.xyz +
+                       ndc.y * parameters.film_up.xyz,
+                   normalize(parameters.camera_forward.xyz + ndc.x * parameters.camera_right.xyz +
+                             ndc.y * parameters.camera_up.xyz));
 }
 
 // Work groups are 64 x 1 (shaders/README.md); each covers 8 x 8 pixels as 4 x 2

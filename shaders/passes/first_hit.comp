@@ -16,11 +16,11 @@ layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer FirstHitBuffe
 void main() {
   uvec2 pixel = pixel_of_invocation();
   if (any(greaterThanEqual(pixel, parameters.image_size))) return;
-  vec3 direction = camera_direction(vec2(pixel) + 0.5);
-  Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
+  CameraRay ray = camera_ray(vec2(pixel) + 0.5);
+  Hit hit = closest_hit(ray.origin, ray.direction);
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (hit.triangle != NO_TRIANGLE) {
-    Surface s = surface_at(hit, direction);
+    Surface s = surface_at(hit, ray.direction);
     first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(base_color_of(s.material).rgb, 1.0),
                      vec4(emitted_radiance(s), 1.0));
   }

@@ -45,8 +45,8 @@ void main() {
   if (any(greaterThanEqual(pixel, uvec2(HEMISPHERE_SIZE)))) return;
   uint index = pixel.y * uint(HEMISPHERE_SIZE) + pixel.x;
   RandomKey key = RandomKey(index, frame_number, parameters.seed);
-  vec3 view = camera_direction(vec2(PIXEL_X, PIXEL_Y) + 0.5);
-  Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, view), view);
+  CameraRay view = camera_ray(vec2(PIXEL_X, PIXEL_Y) + 0.5);
+  Surface s = surface_at(closest_hit(view.origin, view.direction), view.direction);
   vec2 p = to_disk(vec2(pixel) + random_units(key, BLOCK_CAMERA).xy);
   uint bin = bin_on_disk(p);
   vec3 radiance = bin == NO_BIN ? vec3(0.0) : incident_radiance(key, s, from_disk(p));

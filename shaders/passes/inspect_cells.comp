@@ -16,10 +16,10 @@ layout(std430, binding = BINDING_OUTPUT) restrict writeonly buffer PixelCellBuff
 void main() {
   uvec2 pixel = pixel_of_invocation();
   if (any(greaterThanEqual(pixel, parameters.image_size))) return;
-  vec3 direction = camera_direction(vec2(pixel) + 0.5);
-  Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
+  CameraRay ray = camera_ray(vec2(pixel) + 0.5);
+  Hit hit = closest_hit(ray.origin, ray.direction);
   int cell = NO_CELL;
-  if (hit.triangle != NO_TRIANGLE) cell = find_cell(surface_at(hit, direction)).index;
+  if (hit.triangle != NO_TRIANGLE) cell = find_cell(surface_at(hit, ray.direction)).index;
   pixel_cells[pixel.y * parameters.image_size.x + pixel.x] = cell;
   if (loop_was_cut) report_cut(pixel);
 }

@@ -19,7 +19,8 @@ void main() {
   uint index = pixel.y * parameters.image_size.x + pixel.x;
   RandomKey key = RandomKey(index, frame_number, parameters.seed);
   vec2 jitter = camera_units(key);
-  Path path = trace(key, parameters.camera_origin.xyz, camera_direction(vec2(pixel) + jitter));
+  CameraRay ray = camera_ray(vec2(pixel) + jitter);
+  Path path = trace(key, ray.origin, ray.direction);
   samples[index].radiance = vec4(path.radiance, 0.0);
   samples[index].counts = uvec4(path.tally.rays, path.tally.segments,
                                 path.tally.lookups | (path.tally.fallbacks << 16u),

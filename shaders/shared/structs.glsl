@@ -186,6 +186,8 @@ struct Parameters {
   vec4 camera_right;    // scaled by tan(fov / 2) * aspect
   vec4 camera_up;       // scaled by tan(fov / 2)
   vec4 camera_forward;  // unit
+  vec4 film_right;      // half the film of an orthographic camera, which has no camera_right and camera_up;
+  vec4 film_up;         // zero for a perspective one
   vec3 environment;     // constant radiance
   float inverse_brightest;  // 1 / mean radiance of the brightest light or of the environment
   vec3 grid_origin;     // of cells grid: lower corner

@@ -6,9 +6,9 @@
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/shader_variant.h"
+#include "tests/support/goswami.h"
 #include "tests/support/probe.h"
 #include "tests/support/render.h"
-#include "tests/support/goswami.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -41,8 +41,8 @@ std::vector<glm::vec4> hits(const gpu::Defines& defines, const std::string& vect
       "vec4",
       {"shared/variants.glsl", "learning/cells.glsl", "geometry/camera.glsl", "geometry/traverse.glsl"}, "",
       "uint pixel = index >> 1;\n"
-      "vec3 d = camera_direction(vec2(pixel % parameters.image_size.x, pixel / parameters.image_size.x) + "
-      "0.5);\n"
+      "vec3 d = camera_ray(vec2(pixel % parameters.image_size.x, pixel / parameters.image_size.x) + "
+      "0.5).direction;\n"
       "Hit hit = closest_hit(parameters.camera_origin.xyz, d);\n"
       "result = vec4(-2.0);\n"
       "if (hit.triangle == NO_TRIANGLE) { results[index] = result; return; }\n"

@@ -1,9 +1,9 @@
 // The rules at work: what their tables approach in closed scenes whose incident radiance is known.
 #include "engine/accel/build_bvh.h"
 #include "tests/gpu/patterned_furnace.h"
+#include "tests/support/goswami.h"
 #include "tests/support/learning_stage.h"
 #include "tests/support/render.h"
-#include "tests/support/goswami.h"
 
 #include <cmath>
 
@@ -139,7 +139,7 @@ std::vector<double> patterned_truth(Tracer& tracer, const RenderSettings& settin
           ");\nRandomKey key = RandomKey(index, 77u, 5u);\n"
           // A point uniform on the walls, by way of the cosine-distributed flux of a convex room.
           "vec4 u = random_units(key, 1u);\nvec4 w = random_units(key, 2u);\n"
-          "vec3 d = camera_direction(u.xy * vec2(parameters.image_size));\n"
+          "vec3 d = camera_ray(u.xy * vec2(parameters.image_size)).direction;\n"
           "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n"
           "vec3 next = cosine_direction(u.zw, s.normal);\n"
           "s = surface_at(closest_hit(ray_origin(s, next), next), next);\n"

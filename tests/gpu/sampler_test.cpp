@@ -5,8 +5,8 @@
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/qtable.h"
 #include "engine/tracer/shader_variant.h"
-#include "tests/support/probe.h"
 #include "tests/support/goswami.h"
+#include "tests/support/probe.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ constexpr std::uint32_t kSamples = 1 << 18;
 // One hit for all invocations: the floor in the middle of the image. `c` = direction in the frame of z up.
 const char* const kEvent = R"(
 Event the_event() {
-  vec3 direction = camera_direction(vec2(parameters.image_size) * 0.5);
+  vec3 direction = camera_ray(vec2(parameters.image_size) * 0.5).direction;
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
   Event e;
   e.surface = surface_at(hit, direction);

@@ -19,7 +19,7 @@ namespace qtrace::test {
 
 // Sets `s` to what the middle of the image shows, seen along `d`.
 inline const std::string kViewedSurface =
-    "vec3 d = camera_direction(vec2(parameters.image_size) * 0.5);\n"
+    "vec3 d = camera_ray(vec2(parameters.image_size) * 0.5).direction;\n"
     "Surface s = surface_at(closest_hit(parameters.camera_origin.xyz, d), d);\n";
 
 class LearningStage : public testing::Test {

@@ -140,20 +140,13 @@ std::string GltfBuilder::data_uri() const {
   return uri;
 }
 
-Scene GltfTest::load() const { return load("scene.glb", gltf.glb()); }
+namespace {
 
-Scene GltfTest::load(const std::string& name, std::string_view bytes) const {
-  return load_gltf(folder.write(name, bytes));
-}
-
-void GltfTest::expect_error(std::initializer_list<std::string_view> parts) const {
-  expect_error(folder.write("scene.glb", gltf.glb()), parts);
-}
-
-void GltfTest::expect_error(const std::filesystem::path& file,
-                            std::initializer_list<std::string_view> parts) const {
+// What the loader says of a file that it must refuse.
+void expect_refusal(const std::filesystem::path& file, const View& view,
+                    std::initializer_list<std::string_view> parts) {
   try {
-    load_gltf(file);
+    load_gltf(file, view);
     ADD_FAILURE() << "the loader accepts " << file;
   } catch (const Error& error) {
     const std::string message = error.what();
@@ -163,6 +156,31 @@ void GltfTest::expect_error(const std::filesystem::path& file,
       EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
     }
   }
+}
+
+}  // namespace
+
+Scene GltfTest::load() const { return load(View()); }
+
+Scene GltfTest::load(const View& view) const {
+  return load_gltf(folder.write("scene.glb", gltf.glb()), view);
+}
+
+Scene GltfTest::load(const std::string& name, std::string_view bytes) const {
+  return load_gltf(folder.write(name, bytes));
+}
+
+void GltfTest::expect_error(std::initializer_list<std::string_view> parts) const {
+  expect_error(View(), parts);
+}
+
+void GltfTest::expect_error(const View& view, std::initializer_list<std::string_view> parts) const {
+  expect_refusal(folder.write("scene.glb", gltf.glb()), view, parts);
+}
+
+void GltfTest::expect_error(const std::filesystem::path& file,
+                            std::initializer_list<std::string_view> parts) const {
+  expect_refusal(file, {}, parts);
 }
 
 void GltfTest::expect_warning(std::string_view warning) const {

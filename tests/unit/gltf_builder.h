@@ -73,10 +73,12 @@ class GltfBuilder {
 class GltfTest : public ::testing::Test {
  protected:
   Scene load() const;  // gltf, written as scene.glb
+  Scene load(const View& view) const;
   Scene load(const std::string& name, std::string_view bytes) const;
   // The loader must refuse the file with a message that holds the file's name and each of `parts`.
   void expect_error(std::initializer_list<std::string_view> parts) const;
   void expect_error(const std::filesystem::path& file, std::initializer_list<std::string_view> parts) const;
+  void expect_error(const View& view, std::initializer_list<std::string_view> parts) const;
   // The scene must load with one warning, which is `warning`.
   void expect_warning(std::string_view warning) const;
 

@@ -42,15 +42,16 @@ TEST(ManifestHash, SceneHashIsOfContentAlone) {
   same.warnings = {"w"};
   EXPECT_EQ(scene_hash(scene), scene_hash(same));
   std::set<std::string> hashes{scene_hash(scene)};
-  std::vector<Scene> others(6, scene);
+  std::vector<Scene> others(7, scene);
   others[0].triangles[0].position[2].z = 1e-6F;
   others[1].materials[0].emission.y = 1;
   others[2].materials[0].double_sided = true;
   others[3].camera.vertical_fov = 0.5F;
   others[4].objects[0].has_uv = true;
   others[5].triangles[0].uv[1].x = 0.5F;
+  others[6].camera.film_height = 2;
   for (const Scene& other : others) hashes.insert(scene_hash(other));
-  EXPECT_EQ(hashes.size(), 7U);
+  EXPECT_EQ(hashes.size(), 8U);
 }
 
 TEST(ManifestHash, ConfigHashReplacesTheScenePathByItsContent) {
@@ -132,7 +133,7 @@ TEST(Manifest, DurationsReadWell) {
 }
 
 TEST(Manifest, ScenesWithoutLightAreWarnedOf) {
-  LoadedScene loaded{"dark.glb", one_triangle(), ""};
+  LoadedScene loaded{"dark.glb", {}, one_triangle(), ""};
   RunConfig config;
   EXPECT_NE(light_warning(loaded, config).find("dark.glb: the scene has no light"), std::string::npos);
   config.render.environment = {0, 0, 0.1};
