@@ -9,19 +9,24 @@
 namespace qtrace::gltf {
 namespace {
 
-constexpr std::array kFloat{TINYGLTF_COMPONENT_TYPE_FLOAT};
-constexpr std::array kUv{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                         TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
-constexpr std::array kIndex{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                            TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
+constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT, kByte = TINYGLTF_COMPONENT_TYPE_BYTE,
+              kUnsignedByte = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, kShort = TINYGLTF_COMPONENT_TYPE_SHORT,
+              kUnsignedShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+              kUnsignedInt = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+
+constexpr std::array kPosition{
+    Component{kFloat, false}, {kByte, false},          {kByte, true},
+    {kUnsignedByte, false},   {kUnsignedByte, true},   {kShort, false},
+    {kShort, true},           {kUnsignedShort, false}, Component{kUnsignedShort, true}};
+constexpr std::array kNormal{Component{kFloat, false}, {kByte, true}, {kShort, true}};
+constexpr std::array kUv = kPosition;
+constexpr std::array kIndex{Component{kUnsignedByte, false}, {kUnsignedShort, false}, {kUnsignedInt, false}};
 
 void check_layout(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
                   const std::string& role) {
-  const auto& allowed = layout.component_types;
-  const bool is_float = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-  const bool fits = accessor.type == layout.type &&
-                    std::find(allowed.begin(), allowed.end(), accessor.componentType) != allowed.end() &&
-                    (is_float || accessor.normalized == layout.integers_are_normalized);
+  // That floats are normalized would say nothing.
+  const Component found{accessor.componentType, accessor.normalized && accessor.componentType != kFloat};
+  const bool fits = accessor.type == layout.type && std::ranges::count(layout.components, found) > 0;
   source.check(fits, "{} has the wrong type (component type {}{}); {} would be right", role,
                accessor.componentType, accessor.normalized ? ", normalized" : "", layout.text);
 }
@@ -48,10 +53,10 @@ void check_extent(const Source& source, const tinygltf::Accessor& accessor, cons
 
 }  // namespace
 
-const Layout kVec3Layout{TINYGLTF_TYPE_VEC3, kFloat, false, "VEC3 of float"};
-const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kUv, true,
-                       "VEC2 of float or of normalized unsigned bytes or shorts"};
-const Layout kIndexLayout{TINYGLTF_TYPE_SCALAR, kIndex, false, "SCALAR of unsigned bytes, shorts or ints"};
+const Layout kPositionLayout{TINYGLTF_TYPE_VEC3, kPosition, "VEC3 of float, or of bytes or shorts"};
+const Layout kNormalLayout{TINYGLTF_TYPE_VEC3, kNormal, "VEC3 of float, or of normalized bytes or shorts"};
+const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kUv, "VEC2 of float, or of bytes or shorts"};
+const Layout kIndexLayout{TINYGLTF_TYPE_SCALAR, kIndex, "SCALAR of unsigned bytes, shorts or ints"};
 
 AccessorView::AccessorView(const Source& source, int accessor_index, const Layout& layout,
                            const std::string& role)
@@ -71,6 +76,7 @@ AccessorView::AccessorView(const Source& source, int accessor_index, const Layou
           accessor.byteOffset;
   count_ = accessor.count;
   component_type_ = accessor.componentType;
+  is_normalized_ = accessor.normalized;
 }
 
 template <class T>
@@ -80,8 +86,30 @@ T AccessorView::component(std::size_t i, std::size_t component) const {
   return value;
 }
 
+// glTF 2.0, section 3.6.2.2: c / 127 and the like, and no less than -1.
+template <class T>
+float AccessorView::fraction(std::size_t i, std::size_t k) const {
+  const auto value = static_cast<float>(component<T>(i, k));
+  return is_normalized_ ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F) : value;
+}
+
+float AccessorView::number(std::size_t i, std::size_t k) const {
+  switch (component_type_) {
+    case kByte:
+      return fraction<std::int8_t>(i, k);
+    case kUnsignedByte:
+      return fraction<std::uint8_t>(i, k);
+    case kShort:
+      return fraction<std::int16_t>(i, k);
+    case kUnsignedShort:
+      return fraction<std::uint16_t>(i, k);
+    default:
+      return component<float>(i, k);
+  }
+}
+
 glm::vec3 AccessorView::vec3(const Source& source, std::size_t i) const {
-  const glm::vec3 value(component<float>(i, 0), component<float>(i, 1), component<float>(i, 2));
+  const glm::vec3 value(number(i, 0), number(i, 1), number(i, 2));
   if (!std::isfinite(value.x) || !std::isfinite(value.y) || !std::isfinite(value.z)) {
     source.fail("{}: element {} is ({}, {}, {}); finite numbers would be right", role_, i, value.x, value.y,
                 value.z);
@@ -89,16 +117,8 @@ glm::vec3 AccessorView::vec3(const Source& source, std::size_t i) const {
   return value;
 }
 
-glm::vec2 AccessorView::uv(const Source& source, std::size_t i) const {
-  switch (component_type_) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return glm::vec2(component<std::uint8_t>(i, 0), component<std::uint8_t>(i, 1)) / 255.0F;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return glm::vec2(component<std::uint16_t>(i, 0), component<std::uint16_t>(i, 1)) / 65535.0F;
-    default:
-      break;
-  }
-  const glm::vec2 value(component<float>(i, 0), component<float>(i, 1));
+glm::vec2 AccessorView::vec2(const Source& source, std::size_t i) const {
+  const glm::vec2 value(number(i, 0), number(i, 1));
   if (!std::isfinite(value.x) || !std::isfinite(value.y)) {
     source.fail("{}: element {} is ({}, {}); finite numbers would be right", role_, i, value.x, value.y);
   }
@@ -107,9 +127,9 @@ glm::vec2 AccessorView::uv(const Source& source, std::size_t i) const {
 
 std::uint32_t AccessorView::index(std::size_t i) const {
   switch (component_type_) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return component<std::uint8_t>(i, 0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return component<std::uint16_t>(i, 0);
     default:
       return component<std::uint32_t>(i, 0);
@@ -118,9 +138,9 @@ std::uint32_t AccessorView::index(std::size_t i) const {
 
 std::uint32_t AccessorView::restart_value() const {
   switch (component_type_) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return std::numeric_limits<std::uint8_t>::max();
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return std::numeric_limits<std::uint16_t>::max();
     default:
       return std::numeric_limits<std::uint32_t>::max();

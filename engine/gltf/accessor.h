@@ -13,15 +13,23 @@
 
 namespace qtrace::gltf {
 
+// Of an accessor: integers may stand for themselves or, normalized, for fractions.
+struct Component {
+  int type;
+  bool is_normalized;
+  bool operator==(const Component&) const = default;
+};
+
 // What an accessor must hold for its role.
 struct Layout {
   int type;
-  std::span<const int> component_types;
-  bool integers_are_normalized;
+  std::span<const Component> components;
   std::string_view text;  // for messages
 };
 
-extern const Layout kVec3Layout;   // POSITION, NORMAL
+// With those of KHR_mesh_quantization.
+extern const Layout kPositionLayout;
+extern const Layout kNormalLayout;
 extern const Layout kUvLayout;     // TEXCOORD_0
 extern const Layout kIndexLayout;  // indices
 
@@ -33,7 +41,7 @@ class AccessorView {
 
   std::size_t size() const { return count_; }
   glm::vec3 vec3(const Source& source, std::size_t i) const;  // Error unless finite
-  glm::vec2 uv(const Source& source, std::size_t i) const;    // Error unless finite
+  glm::vec2 vec2(const Source& source, std::size_t i) const;  // Error unless finite
   std::uint32_t index(std::size_t i) const;
   std::uint32_t restart_value() const;  // the index that would restart a strip, which glTF forbids
   const std::string& role() const { return role_; }
@@ -41,12 +49,16 @@ class AccessorView {
  private:
   template <class T>
   T component(std::size_t i, std::size_t component) const;
+  template <class T>
+  float fraction(std::size_t i, std::size_t component) const;
+  float number(std::size_t i, std::size_t component) const;
 
   std::string role_;
   const unsigned char* data_ = nullptr;
   std::size_t stride_ = 0;
   std::size_t count_ = 0;
   int component_type_ = 0;
+  bool is_normalized_ = false;
 };
 
 }  // namespace qtrace::gltf

@@ -13,8 +13,9 @@ using nlohmann::json;
 constexpr std::string_view kLights = "KHR_lights_punctual";
 constexpr std::string_view kIor = "KHR_materials_ior";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
-constexpr std::array<std::string_view, 2> kSupported{"KHR_materials_emissive_strength",
-                                                     "KHR_materials_specular"};
+constexpr std::string_view kQuantization = "KHR_mesh_quantization";
+constexpr std::array<std::string_view, 3> kSupported{"KHR_materials_emissive_strength",
+                                                     "KHR_materials_specular", kQuantization};
 
 bool is_supported(const std::string& extension) {
   return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
@@ -67,7 +68,7 @@ void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const json& required : member(document, "extensionsRequired")) {
     const auto name = required.get<std::string>();
     source.check(is_supported(name), "the required extension {} is not supported; supported are {}", name,
-                 joined(kSupported, " and "));
+                 joined(kSupported, ", "));
   }
   std::set<std::string> declared;
   for (const json& used : member(document, "extensionsUsed")) {
@@ -96,20 +97,34 @@ void check_buffer_views(const Source& source, const json& views) {
   }
 }
 
-// Here and not where accessors are read: tinygltf would refuse some of these without naming the place.
-void check_dense(const Source& source, const json& document, const std::string& place,
-                 const json& accessor_index) {
-  if (accessor_index.is_null()) return;
-  const auto index = accessor_index.get<std::size_t>();
-  const json& accessor = document["accessors"][index];
-  source.check(!accessor.contains("sparse"),
-               "{}: accessor {} is sparse, which is not supported; a dense accessor would be right", place,
-               index);
-  source.check(accessor.contains("bufferView"),
-               "{}: accessor {} has no bufferView; one that holds its data would be right", place, index);
+// Whether an attribute is of a type that glTF has by that extension alone.
+bool is_quantized(const json& document, const json& attributes, std::string_view name) {
+  const json& index = member(attributes, name);
+  if (!index.is_number_unsigned()) return false;
+  const json& accessor = document["accessors"][index.get<std::size_t>()];
+  const int type = accessor.value("componentType", 0);
+  if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return false;
+  const bool is_unsigned =
+      type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  return !(name == "TEXCOORD_0" && is_unsigned && accessor.value("normalized", false));
 }
 
-void check_mesh(Source& source, const json& document, const std::string& mesh, const json& primitives) {
+void check_quantization(Source& source, const json& document, const std::string& mesh,
+                        const json& primitives) {
+  const json& declared = member(document, "extensionsUsed");
+  if (std::ranges::count(declared, json(kQuantization)) > 0) return;
+  for (const json& primitive : primitives) {
+    for (const std::string_view name : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
+      if (!is_quantized(document, primitive["attributes"], name)) continue;
+      source.warn(
+          "{}: {} has integers as {} allows, which extensionsUsed does not declare; it is read as if it did",
+          mesh, name, kQuantization);
+      return;
+    }
+  }
+}
+
+void check_mesh(Source& source, const std::string& mesh, const json& primitives) {
   bool has_targets = false;
   bool has_colors = false;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -117,10 +132,6 @@ void check_mesh(Source& source, const json& document, const std::string& mesh, c
     const std::string place = fmt::format("{} primitive {}", mesh, i);
     source.check(!member(primitive, "extensions").contains(kDraco),
                  "{} is compressed with {}; uncompressed data would be right", place, kDraco);
-    check_dense(source, document, place, member(primitive, "indices"));
-    for (const std::string_view name : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
-      check_dense(source, document, place, member(primitive["attributes"], name));
-    }
     has_targets = has_targets || !member(primitive, "targets").empty();
     has_colors = has_colors || primitive["attributes"].contains("COLOR_0");
   }
@@ -142,7 +153,10 @@ void check_features(Source& source, const json& document) {
   check_buffer_views(source, member(document, "bufferViews"));
   const json& meshes = member(document, "meshes");
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    check_mesh(source, document, item_label("mesh", i, meshes[i]), member(meshes[i], "primitives"));
+    const std::string mesh = item_label("mesh", i, meshes[i]);
+    const json& primitives = member(meshes[i], "primitives");
+    check_mesh(source, mesh, primitives);
+    check_quantization(source, document, mesh, primitives);
   }
   warn_by_name(source, "skin", member(document, "skins"), "its meshes keep their bind pose");
   warn_by_name(source, "animation", member(document, "animations"), "nodes keep their own transforms");

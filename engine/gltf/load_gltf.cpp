@@ -3,6 +3,7 @@
 #include "engine/gltf/buffer.h"
 #include "engine/gltf/camera.h"
 #include "engine/gltf/duplicates.h"
+#include "engine/gltf/expansion.h"
 #include "engine/gltf/features.h"
 #include "engine/gltf/file.h"
 #include "engine/gltf/json.h"
@@ -36,12 +37,13 @@ void parse_model(Source& source, nlohmann::json document) {
 }
 
 void read_source(Source& source, FileContent content, const std::filesystem::path& file,
-                 std::size_t max_bytes) {
+                 const SceneLimits& limits) {
   nlohmann::json document = parse_json(source, content.json);
   check_json(source, document);
   check_features(source, document);
   std::vector<tinygltf::Buffer> buffers =
-      load_buffers(source, document, file.parent_path(), std::move(content), max_bytes);
+      load_buffers(source, document, file.parent_path(), std::move(content), limits.file_bytes);
+  expand_accessors(source, document, buffers, limits.expanded_bytes);
   parse_model(source, std::move(document));
   source.model.buffers = std::move(buffers);
 }
@@ -49,7 +51,7 @@ void read_source(Source& source, FileContent content, const std::filesystem::pat
 Scene make_scene(FileContent content, const std::filesystem::path& file, const View& view,
                  const SceneLimits& limits) {
   Source source{file.string(), {}, {}, 0};
-  read_source(source, std::move(content), file, limits.file_bytes);
+  read_source(source, std::move(content), file, limits);
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);

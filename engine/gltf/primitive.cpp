@@ -38,10 +38,10 @@ Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t p
     if (attribute == file.attributes.end()) return;
     view.emplace(source, attribute->second, layout, fmt::format("{} {}", place_, name));
   };
-  open("POSITION", kVec3Layout, positions_);
-  open("NORMAL", kVec3Layout, normals_);
+  open("POSITION", kPositionLayout, positions_);
+  open("NORMAL", kNormalLayout, normals_);
   open("TEXCOORD_0", kUvLayout, uv_);
-  source.check(positions_.has_value(), "{} has no POSITION; VEC3 of float would be right", place_);
+  source.check(positions_.has_value(), "{} has no POSITION; {} would be right", place_, kPositionLayout.text);
   if (normals_) check_same_count(source, *normals_, *positions_);
   if (uv_) check_same_count(source, *uv_, *positions_);
   if (file.indices >= 0) indices_.emplace(source, file.indices, kIndexLayout, place_ + " indices");
@@ -84,6 +84,8 @@ glm::vec3 Primitive::normal(const Source& source, std::uint32_t vertex) const {
   return normals_->vec3(source, vertex);
 }
 
-glm::vec2 Primitive::uv(const Source& source, std::uint32_t vertex) const { return uv_->uv(source, vertex); }
+glm::vec2 Primitive::uv(const Source& source, std::uint32_t vertex) const {
+  return uv_->vec2(source, vertex);
+}
 
 }  // namespace qtrace::gltf

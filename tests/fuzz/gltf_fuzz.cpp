@@ -1,7 +1,7 @@
 // Feeds bytes to the glTF loader: .glb where they begin as one, else .gltf.
 #include "engine/core/check.h"
-#include "engine/gltf/load_gltf.h"
 #include "engine/gltf/file.h"
+#include "engine/gltf/load_gltf.h"
 #include "tests/fuzz/expect.h"
 #include "tests/fuzz/json_mutator.h"
 
@@ -15,7 +15,8 @@ namespace {
 const char* const kFile = "/nonexistent/folder/fuzz.gltf";
 
 // What the sanitizers can read in a second.
-const SceneLimits kLimits{std::size_t{1} << 16U, std::size_t{1} << 13U, std::size_t{1} << 24U};
+const SceneLimits kLimits{std::size_t{1} << 16U, std::size_t{1} << 13U, std::size_t{1} << 24U,
+                          std::size_t{1} << 24U};
 
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -94,7 +95,8 @@ std::string mutate(std::string_view bytes, std::size_t max_size, unsigned seed) 
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    qtrace::fuzz::expect_usable(qtrace::parse_gltf({data, size}, qtrace::fuzz::kFile, qtrace::fuzz::kLimits));
+    qtrace::fuzz::expect_usable(
+        qtrace::parse_gltf({data, size}, qtrace::fuzz::kFile, {}, qtrace::fuzz::kLimits));
   } catch (const qtrace::Error& error) {
     qtrace::fuzz::expect_message(error.what());
   }

@@ -93,7 +93,6 @@ TEST_F(GltfFileTest, RefusesEveryIndexOutOfRange) {
       {"/meshes/0/primitives/0/material", "materials"},
       {"/meshes/0/primitives/0/targets/0/POSITION", "accessors"},
       {"/accessors/0/bufferView", "bufferViews"},
-      {"/accessors/0/sparse/values/bufferView", "bufferViews"},
       {"/bufferViews/0/buffer", "buffers"},
       {"/materials/0/normalTexture/index", "textures"},
       {"/materials/0/pbrMetallicRoughness/baseColorTexture/index", "textures"},

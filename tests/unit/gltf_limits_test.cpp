@@ -56,7 +56,7 @@ TEST_F(GltfLimitsTest, LimitsCanBeLower) {
   const std::string bytes = gltf.glb();
   const auto count = [&](const SceneLimits& limits) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    return parse_gltf({data, bytes.size()}, "a.glb", limits).triangles.size();
+    return parse_gltf({data, bytes.size()}, "a.glb", {}, limits).triangles.size();
   };
   EXPECT_EQ(count({6000, 6, 0}), 6000U);
   EXPECT_THROW(count({5999, 6, 0}), Error);
