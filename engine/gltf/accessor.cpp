@@ -20,6 +20,9 @@ constexpr std::array kPosition{
     {kShort, true},           {kUnsignedShort, false}, Component{kUnsignedShort, true}};
 constexpr std::array kNormal{Component{kFloat, false}, {kByte, true}, {kShort, true}};
 constexpr std::array kUv = kPosition;
+constexpr std::array kFloats{Component{kFloat, false}};
+constexpr std::array kJoints{Component{kUnsignedByte, false}, {kUnsignedShort, false}};
+constexpr std::array kWeights{Component{kFloat, false}, {kUnsignedByte, true}, {kUnsignedShort, true}};
 constexpr std::array kIndex{Component{kUnsignedByte, false}, {kUnsignedShort, false}, {kUnsignedInt, false}};
 
 void check_layout(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
@@ -56,6 +59,11 @@ void check_extent(const Source& source, const tinygltf::Accessor& accessor, cons
 const Layout kPositionLayout{TINYGLTF_TYPE_VEC3, kPosition, "VEC3 of float, or of bytes or shorts"};
 const Layout kNormalLayout{TINYGLTF_TYPE_VEC3, kNormal, "VEC3 of float, or of normalized bytes or shorts"};
 const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kUv, "VEC2 of float, or of bytes or shorts"};
+const Layout kRotationLayout{TINYGLTF_TYPE_VEC4, kNormal, "VEC4 of float, or of normalized bytes or shorts"};
+const Layout kJointsLayout{TINYGLTF_TYPE_VEC4, kJoints, "VEC4 of unsigned bytes or shorts"};
+const Layout kWeightsLayout{TINYGLTF_TYPE_VEC4, kWeights,
+                            "VEC4 of float, or of normalized unsigned bytes or shorts"};
+const Layout kMatrixLayout{TINYGLTF_TYPE_MAT4, kFloats, "MAT4 of float"};
 const Layout kIndexLayout{TINYGLTF_TYPE_SCALAR, kIndex, "SCALAR of unsigned bytes, shorts or ints"};
 
 AccessorView::AccessorView(const Source& source, int accessor_index, const Layout& layout,
@@ -108,20 +116,39 @@ float AccessorView::number(std::size_t i, std::size_t k) const {
   }
 }
 
-glm::vec3 AccessorView::vec3(const Source& source, std::size_t i) const {
-  const glm::vec3 value(number(i, 0), number(i, 1), number(i, 2));
-  if (!std::isfinite(value.x) || !std::isfinite(value.y) || !std::isfinite(value.z)) {
-    source.fail("{}: element {} is ({}, {}, {}); finite numbers would be right", role_, i, value.x, value.y,
-                value.z);
+void AccessorView::numbers(const Source& source, std::size_t i, std::span<float> values) const {
+  bool are_finite = true;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] = number(i, k);
+    are_finite = are_finite && std::isfinite(values[k]);
   }
+  if (are_finite) return;
+  std::string text;
+  for (const float value : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  source.fail("{}: element {} is ({}); finite numbers would be right", role_, i, text);
+}
+
+glm::vec3 AccessorView::vec3(const Source& source, std::size_t i) const {
+  glm::vec3 value;
+  numbers(source, i, {&value[0], 3});
   return value;
 }
 
 glm::vec2 AccessorView::vec2(const Source& source, std::size_t i) const {
-  const glm::vec2 value(number(i, 0), number(i, 1));
-  if (!std::isfinite(value.x) || !std::isfinite(value.y)) {
-    source.fail("{}: element {} is ({}, {}); finite numbers would be right", role_, i, value.x, value.y);
-  }
+  glm::vec2 value;
+  numbers(source, i, {&value[0], 2});
+  return value;
+}
+
+glm::vec4 AccessorView::vec4(const Source& source, std::size_t i) const {
+  glm::vec4 value;
+  numbers(source, i, {&value[0], 4});
+  return value;
+}
+
+glm::mat4 AccessorView::mat4(const Source& source, std::size_t i) const {
+  glm::mat4 value;
+  numbers(source, i, {&value[0][0], 16});
   return value;
 }
 

@@ -3,8 +3,10 @@
 
 #include "engine/gltf/source.h"
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +32,12 @@ struct Layout {
 // With those of KHR_mesh_quantization.
 extern const Layout kPositionLayout;
 extern const Layout kNormalLayout;
-extern const Layout kUvLayout;     // TEXCOORD_0
-extern const Layout kIndexLayout;  // indices
+extern const Layout kUvLayout;        // TEXCOORD_0
+extern const Layout kIndexLayout;     // indices
+extern const Layout kRotationLayout;  // unit quaternions x, y, z, w
+extern const Layout kJointsLayout;    // JOINTS_0 and further sets
+extern const Layout kWeightsLayout;   // WEIGHTS_0 and further sets
+extern const Layout kMatrixLayout;    // inverse bind matrices
 
 // Elements inside their buffer. Data need not be aligned, so each read copies.
 class AccessorView {
@@ -42,6 +48,8 @@ class AccessorView {
   std::size_t size() const { return count_; }
   glm::vec3 vec3(const Source& source, std::size_t i) const;  // Error unless finite
   glm::vec2 vec2(const Source& source, std::size_t i) const;  // Error unless finite
+  glm::vec4 vec4(const Source& source, std::size_t i) const;  // Error unless finite
+  glm::mat4 mat4(const Source& source, std::size_t i) const;  // Error unless finite
   std::uint32_t index(std::size_t i) const;
   std::uint32_t restart_value() const;  // the index that would restart a strip, which glTF forbids
   const std::string& role() const { return role_; }
@@ -52,6 +60,8 @@ class AccessorView {
   template <class T>
   float fraction(std::size_t i, std::size_t component) const;
   float number(std::size_t i, std::size_t component) const;
+  // Fills `values`; Error unless all are finite.
+  void numbers(const Source& source, std::size_t i, std::span<float> values) const;
 
   std::string role_;
   const unsigned char* data_ = nullptr;

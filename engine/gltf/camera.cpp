@@ -76,7 +76,7 @@ std::vector<FileCamera> cameras_of(const Source& source, const std::vector<Place
   std::vector<FileCamera> cameras;
   for (const PlacedNode& node : nodes) {
     const int index = source.model.nodes[node.index].camera;
-    if (index >= 0) cameras.push_back({&node, static_cast<std::size_t>(index)});
+    if (index >= 0 && !node.instance) cameras.push_back({&node, static_cast<std::size_t>(index)});
   }
   return cameras;
 }

@@ -14,8 +14,9 @@ constexpr std::string_view kLights = "KHR_lights_punctual";
 constexpr std::string_view kIor = "KHR_materials_ior";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
-constexpr std::array<std::string_view, 3> kSupported{"KHR_materials_emissive_strength",
-                                                     "KHR_materials_specular", kQuantization};
+constexpr std::array<std::string_view, 5> kSupported{"KHR_materials_emissive_strength",
+                                                     "KHR_materials_specular", kQuantization,
+                                                     "EXT_mesh_gpu_instancing", "KHR_node_visibility"};
 
 bool is_supported(const std::string& extension) {
   return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
@@ -125,17 +126,14 @@ void check_quantization(Source& source, const json& document, const std::string&
 }
 
 void check_mesh(Source& source, const std::string& mesh, const json& primitives) {
-  bool has_targets = false;
   bool has_colors = false;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const json& primitive = primitives[i];
     const std::string place = fmt::format("{} primitive {}", mesh, i);
     source.check(!member(primitive, "extensions").contains(kDraco),
                  "{} is compressed with {}; uncompressed data would be right", place, kDraco);
-    has_targets = has_targets || !member(primitive, "targets").empty();
     has_colors = has_colors || primitive["attributes"].contains("COLOR_0");
   }
-  if (has_targets) source.warn("{}: morph targets are not modelled; the base shape is used", mesh);
   if (has_colors) source.warn("{}: vertex colours (COLOR_0) are not modelled; they are ignored", mesh);
 }
 
@@ -158,7 +156,6 @@ void check_features(Source& source, const json& document) {
     check_mesh(source, mesh, primitives);
     check_quantization(source, document, mesh, primitives);
   }
-  warn_by_name(source, "skin", member(document, "skins"), "its meshes keep their bind pose");
   warn_by_name(source, "animation", member(document, "animations"), "nodes keep their own transforms");
   warn_by_name(source, "light", lights,
                "KHR_lights_punctual is not supported and emissive materials are the only lights");

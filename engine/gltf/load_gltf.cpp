@@ -6,6 +6,7 @@
 #include "engine/gltf/expansion.h"
 #include "engine/gltf/features.h"
 #include "engine/gltf/file.h"
+#include "engine/gltf/instances.h"
 #include "engine/gltf/json.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
@@ -22,8 +23,7 @@ namespace {
 // tinygltf gets no more than the tracer models: it would decode images, follow buffers out of the scene's
 // folder, and refuse files for mistakes in what is not used.
 void parse_model(Source& source, nlohmann::json document) {
-  for (const char* unused :
-       {"animations", "buffers", "extensions", "images", "samplers", "skins", "textures"}) {
+  for (const char* unused : {"animations", "buffers", "extensions", "images", "samplers", "textures"}) {
     document.erase(unused);
   }
   const std::string text = document.dump();
@@ -55,7 +55,7 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);
-  std::vector<PlacedNode> nodes = place_nodes(source, view.scene);
+  std::vector<PlacedNode> nodes = with_instances(source, place_nodes(source, view.scene), limits.primitives);
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
   add_objects(source, nodes, scene);

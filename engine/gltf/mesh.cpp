@@ -8,14 +8,6 @@
 namespace qtrace::gltf {
 namespace {
 
-bool has_mesh(const Source& source, const PlacedNode& node) {
-  return source.model.nodes[node.index].mesh >= 0;
-}
-
-std::size_t mesh_index(const Source& source, const PlacedNode& node) {
-  return static_cast<std::size_t>(source.model.nodes[node.index].mesh);
-}
-
 // Of a mesh; memory and time are spent on each primitive too.
 struct Count {
   std::size_t triangles = 0;
@@ -35,7 +27,7 @@ class ObjectBuilder {
  public:
   ObjectBuilder(Source& source, Scene& scene) : source_(source), scene_(scene) {}
 
-  void add(const PlacedNode& node);
+  void add(const PlacedNode& node, const NodeTransforms& transforms);
 
  private:
   std::string object_name(const PlacedNode& node) const;
@@ -53,7 +45,7 @@ class ObjectBuilder {
 std::string ObjectBuilder::object_name(const PlacedNode& node) const {
   const std::string& name = source_.model.nodes[node.index].name;
   if (!name.empty()) return name;
-  const std::string& mesh = source_.model.meshes[mesh_index(source_, node)].name;
+  const std::string& mesh = source_.model.meshes[static_cast<std::size_t>(node.mesh)].name;
   return mesh.empty() ? node_label(source_, node.index) : mesh;
 }
 
@@ -113,15 +105,17 @@ void ObjectBuilder::finish(Object object, const std::string& place, bool is_part
   scene_.objects.push_back(std::move(object));
 }
 
-void ObjectBuilder::add(const PlacedNode& node) {
-  Object object{object_name(node), static_cast<std::uint32_t>(scene_.triangles.size()), 0, false};
+void ObjectBuilder::add(const PlacedNode& node, const NodeTransforms& transforms) {
+  std::string name = object_name(node);
+  if (node.instance) name += fmt::format(" instance {}", *node.instance);
+  Object object{name, static_cast<std::uint32_t>(scene_.triangles.size()), 0, false};
   const std::string place = label("object", scene_.objects.size(), object.name);
-  const std::size_t mesh = mesh_index(source_, node);
-  TrianglePlacer placer(source_, place, node.to_world);
+  const Pose pose(source_, node, transforms);
+  TrianglePlacer placer(source_, place, pose);
   bool some_mapped = false;
   bool some_unmapped = false;
-  for (std::size_t i = 0; i < source_.model.meshes[mesh].primitives.size(); ++i) {
-    const Primitive primitive(source_, mesh, i);
+  for (std::size_t i = 0; i < source_.model.meshes[pose.mesh()].primitives.size(); ++i) {
+    const Primitive primitive = pose.primitive(i);
     if (!primitive.is_surface()) {
       skip_primitive(primitive, place);
       continue;
@@ -141,9 +135,10 @@ std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>&
   std::vector<std::optional<Count>> counts(source.model.meshes.size());
   Count total;
   for (const PlacedNode& node : nodes) {
-    if (!has_mesh(source, node)) continue;
-    std::optional<Count>& count = counts[mesh_index(source, node)];
-    if (!count) count = count_mesh(source, mesh_index(source, node));
+    if (node.mesh < 0) continue;
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    std::optional<Count>& count = counts[mesh];
+    if (!count) count = count_mesh(source, mesh);
     total.triangles += count->triangles;
     total.primitives += count->primitives;
     source.check(total.triangles <= limits.triangles,
@@ -157,8 +152,9 @@ std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>&
 
 void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene) {
   ObjectBuilder builder(source, scene);
+  const NodeTransforms transforms(source, nodes);
   for (const PlacedNode& node : nodes) {
-    if (has_mesh(source, node)) builder.add(node);
+    if (node.mesh >= 0) builder.add(node, transforms);
   }
   source.check(!scene.triangles.empty(),
                "the scene has no triangles; a node whose mesh has triangles of some area would be right");

@@ -159,6 +159,15 @@ glm::dmat4 local_transform(Source& source, std::size_t index) {
   return transform;
 }
 
+// KHR_node_visibility of the node itself.
+bool is_shown(const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_node_visibility");
+  return extension == node.extensions.end() || !extension->second.Has("visible") ||
+         extension->second.Get("visible").Get<bool>();
+}
+
+}  // namespace
+
 bool fits_float(const glm::dmat4& matrix) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
@@ -169,8 +178,6 @@ bool fits_float(const glm::dmat4& matrix) {
   return true;
 }
 
-}  // namespace
-
 std::string node_label(const Source& source, std::size_t index) {
   return label("node", index, source.model.nodes[index].name);
 }
@@ -178,24 +185,32 @@ std::string node_label(const Source& source, std::size_t index) {
 std::vector<PlacedNode> place_nodes(Source& source, const NameOrIndex& scene) {
   const std::vector<std::size_t> parents = find_parents(source);
   check_acyclic(source, parents);
-  std::vector<PlacedNode> pending;
+  struct Pending {
+    PlacedNode node;
+    bool is_shown;
+  };
+  std::vector<Pending> pending;
   const std::vector<std::size_t> roots = find_roots(source, parents, scene);
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+    pending.push_back({{*root, glm::dmat4(1.0)}, true});
+  }
 
   // A stack of our own: a file may nest nodes deeper than the call stack.
   std::vector<PlacedNode> placed;
   while (!pending.empty()) {
-    PlacedNode node = pending.back();
+    auto [node, shown] = pending.back();
     pending.pop_back();
     node.to_world *= local_transform(source, node.index);  // until here: the parent's
     if (!fits_float(node.to_world)) {
       source.fail("{}: its world transform overflows; smaller translations and scales would be right",
                   node_label(source, node.index));
     }
+    const tinygltf::Node& file = source.model.nodes[node.index];
+    shown = shown && is_shown(file);
+    node.mesh = shown ? file.mesh : -1;
     placed.push_back(node);
-    const std::vector<int>& children = source.model.nodes[node.index].children;
-    for (auto child = children.rbegin(); child != children.rend(); ++child) {
-      pending.push_back({static_cast<std::size_t>(*child), node.to_world});
+    for (auto child = file.children.rbegin(); child != file.children.rend(); ++child) {
+      pending.push_back({{static_cast<std::size_t>(*child), node.to_world}, shown});
     }
   }
   return placed;

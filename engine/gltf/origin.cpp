@@ -1,6 +1,6 @@
 #include "engine/gltf/origin.h"
 
-#include "engine/gltf/primitive.h"
+#include "engine/gltf/pose.h"
 
 #include <glm/common.hpp>
 
@@ -20,11 +20,11 @@ struct Bounds {
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-void add_primitive(const Source& source, const Primitive& primitive, const glm::dmat4& to_world,
-                   Bounds& bounds) {
+void add_primitive(const Source& source, const Primitive& primitive, const Pose& pose, Bounds& bounds) {
   for (std::size_t i = 0; i < primitive.triangle_count(); ++i) {
     for (const std::uint32_t vertex : primitive.triangle(source, i)) {
-      const glm::dvec3 p(to_world * glm::dvec4(primitive.position(source, vertex), 1.0));
+      const glm::dvec3 p(pose.to_world(primitive, vertex) *
+                         glm::dvec4(primitive.position(source, vertex), 1.0));
       bounds.lo = glm::min(bounds.lo, p);
       bounds.hi = glm::max(bounds.hi, p);
     }
@@ -33,12 +33,12 @@ void add_primitive(const Source& source, const Primitive& primitive, const glm::
 
 Bounds bounds_of(const Source& source, const std::vector<PlacedNode>& nodes) {
   Bounds bounds;
+  const NodeTransforms transforms(source, nodes);
   for (const PlacedNode& node : nodes) {
-    const int index = source.model.nodes[node.index].mesh;
-    if (index < 0) continue;
-    const auto mesh = static_cast<std::size_t>(index);
-    for (std::size_t i = 0; i < source.model.meshes[mesh].primitives.size(); ++i) {
-      add_primitive(source, Primitive(source, mesh, i), node.to_world, bounds);
+    if (node.mesh < 0) continue;
+    const Pose pose(source, node, transforms);
+    for (std::size_t i = 0; i < source.model.meshes[pose.mesh()].primitives.size(); ++i) {
+      add_primitive(source, pose.primitive(i), pose, bounds);
     }
   }
   return bounds;

@@ -18,15 +18,10 @@ void check_corner_count(const Source& source, const std::string& place, int mode
                corners, corners == 1 ? "corner" : "corners", is_list ? "a multiple of 3" : "3 or more");
 }
 
-void check_same_count(const Source& source, const AccessorView& attribute, const AccessorView& positions) {
-  source.check(attribute.size() == positions.size(),
-               "{} has a count of {}; {}, as POSITION has, would be right", attribute.role(),
-               attribute.size(), positions.size());
-}
-
 }  // namespace
 
-Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t primitive_index) {
+Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t primitive_index,
+                     const std::vector<double>& weights) {
   const tinygltf::Mesh& mesh = source.model.meshes[mesh_index];
   const tinygltf::Primitive& file = mesh.primitives[primitive_index];
   place_ = fmt::format("{} primitive {}", label("mesh", mesh_index, mesh.name), primitive_index);
@@ -42,10 +37,75 @@ Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t p
   open("NORMAL", kNormalLayout, normals_);
   open("TEXCOORD_0", kUvLayout, uv_);
   source.check(positions_.has_value(), "{} has no POSITION; {} would be right", place_, kPositionLayout.text);
-  if (normals_) check_same_count(source, *normals_, *positions_);
-  if (uv_) check_same_count(source, *uv_, *positions_);
+  if (normals_) check_count(source, *normals_);
+  if (uv_) check_count(source, *uv_);
+  open_targets(source, file, weights);
+  open_joints(source, file);
   if (file.indices >= 0) indices_.emplace(source, file.indices, kIndexLayout, place_ + " indices");
   check_corner_count(source, place_, mode_, corner_count());
+}
+
+void Primitive::check_count(const Source& source, const AccessorView& attribute) const {
+  source.check(attribute.size() == positions_->size(),
+               "{} has a count of {}; {}, as POSITION has, would be right", attribute.role(),
+               attribute.size(), positions_->size());
+}
+
+void Primitive::open_targets(const Source& source, const tinygltf::Primitive& file,
+                             const std::vector<double>& weights) {
+  if (weights.empty() || file.targets.empty()) return;
+  source.check(weights.size() == file.targets.size(),
+               "{} has {} morph targets and {} weights; as many would be right", place_, file.targets.size(),
+               weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] == 0) continue;
+    Target& target = targets_.emplace_back();
+    target.weight = weights[i];
+    const auto open = [&](const char* name, const Layout& layout, std::optional<AccessorView>& view) {
+      const auto attribute = file.targets[i].find(name);
+      if (attribute == file.targets[i].end()) return;
+      view.emplace(source, attribute->second, layout, fmt::format("{} target {} {}", place_, i, name));
+      check_count(source, *view);
+    };
+    open("POSITION", kPositionLayout, target.positions);
+    open("NORMAL", kNormalLayout, target.normals);
+  }
+}
+
+void Primitive::open_joints(const Source& source, const tinygltf::Primitive& file) {
+  for (int set = 0;; ++set) {
+    const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
+    const auto joint = file.attributes.find(joints), weight = file.attributes.find(weights);
+    if (joint == file.attributes.end() && weight == file.attributes.end()) return;
+    source.check(joint != file.attributes.end() && weight != file.attributes.end(),
+                 "{} has {} alone; {} and {} belong "
+                 "together",
+                 place_, joint == file.attributes.end() ? weights : joints, joints, weights);
+    joints_.push_back(
+        {AccessorView(source, joint->second, kJointsLayout, fmt::format("{} {}", place_, joints)),
+         AccessorView(source, weight->second, kWeightsLayout, fmt::format("{} {}", place_, weights))});
+    check_count(source, joints_.back().indices);
+    check_count(source, joints_.back().weights);
+  }
+}
+
+std::vector<Primitive::Influence> Primitive::influences(const Source& source, std::uint32_t vertex) const {
+  std::vector<Influence> found;
+  double sum = 0;
+  for (const Joints& set : joints_) {
+    const glm::vec4 joints = set.indices.vec4(source, vertex), weights = set.weights.vec4(source, vertex);
+    for (int i = 0; i < 4; ++i) {
+      if (weights[i] == 0) continue;
+      source.check(weights[i] > 0, "{}: element {} has a weight of {}; 0 or more would be right",
+                   set.weights.role(), vertex, weights[i]);
+      found.push_back({static_cast<std::uint32_t>(joints[i]), static_cast<double>(weights[i])});
+      sum += found.back().weight;
+    }
+  }
+  source.check(sum > 0, "{}: vertex {} follows no joint; weights that add up to 1 would be right", place_,
+               vertex);
+  for (Influence& influence : found) influence.weight /= sum;
+  return found;
 }
 
 bool Primitive::is_surface() const { return mode_ >= TINYGLTF_MODE_TRIANGLES; }
@@ -77,11 +137,23 @@ std::array<std::uint32_t, 3> Primitive::triangle(const Source& source, std::size
 }
 
 glm::vec3 Primitive::position(const Source& source, std::uint32_t vertex) const {
-  return positions_->vec3(source, vertex);
+  const glm::vec3 base = positions_->vec3(source, vertex);
+  if (targets_.empty()) return base;
+  glm::dvec3 sum(base);
+  for (const Target& target : targets_) {
+    if (target.positions) sum += target.weight * glm::dvec3(target.positions->vec3(source, vertex));
+  }
+  return sum;
 }
 
 glm::vec3 Primitive::normal(const Source& source, std::uint32_t vertex) const {
-  return normals_->vec3(source, vertex);
+  const glm::vec3 base = normals_->vec3(source, vertex);
+  if (targets_.empty()) return base;
+  glm::dvec3 sum(base);
+  for (const Target& target : targets_) {
+    if (target.normals) sum += target.weight * glm::dvec3(target.normals->vec3(source, vertex));
+  }
+  return sum;
 }
 
 glm::vec2 Primitive::uv(const Source& source, std::uint32_t vertex) const {

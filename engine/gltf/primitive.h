@@ -8,17 +8,21 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace qtrace::gltf {
 
 class Primitive {
  public:
-  // Error where an attribute is missing, malformed or outside its buffer.
-  Primitive(const Source& source, std::size_t mesh, std::size_t primitive);
+  // Error where an attribute is missing, malformed or outside its buffer. `weights`: of its morph targets;
+  // none where all are 0.
+  Primitive(const Source& source, std::size_t mesh, std::size_t primitive,
+            const std::vector<double>& weights = {});
 
   bool is_surface() const;  // false for points and lines
   bool has_uv() const { return uv_.has_value(); }
   bool has_normals() const { return normals_.has_value(); }
+  bool has_joints() const { return !joints_.empty(); }
   int material() const { return material_; }
   int mode() const { return mode_; }
   const std::string& place() const { return place_; }
@@ -31,7 +35,28 @@ class Primitive {
   glm::vec3 normal(const Source& source, std::uint32_t vertex) const;
   glm::vec2 uv(const Source& source, std::uint32_t vertex) const;
 
+  // A joint of the skin, and how far a vertex follows it.
+  struct Influence {
+    std::uint32_t joint;
+    double weight;
+  };
+  // Those above 0; their weights add up to 1. Error where there is none.
+  std::vector<Influence> influences(const Source& source, std::uint32_t vertex) const;
+
  private:
+  struct Target {
+    double weight;
+    std::optional<AccessorView> positions;
+    std::optional<AccessorView> normals;
+  };
+  struct Joints {
+    AccessorView indices;
+    AccessorView weights;
+  };
+  void open_targets(const Source& source, const tinygltf::Primitive& file,
+                    const std::vector<double>& weights);
+  void open_joints(const Source& source, const tinygltf::Primitive& file);
+  void check_count(const Source& source, const AccessorView& attribute) const;
   std::size_t corner_count() const;
   std::uint32_t vertex(const Source& source, std::size_t corner) const;
 
@@ -42,6 +67,8 @@ class Primitive {
   std::optional<AccessorView> normals_;
   std::optional<AccessorView> uv_;
   std::optional<AccessorView> indices_;
+  std::vector<Target> targets_;  // those with a weight
+  std::vector<Joints> joints_;   // sets of four
 };
 
 }  // namespace qtrace::gltf

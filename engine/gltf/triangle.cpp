@@ -29,17 +29,22 @@ bool has_area(const std::array<glm::vec3, 3>& position, double twice_area) {
 
 }  // namespace
 
-TrianglePlacer::TrianglePlacer(const Source& source, std::string object, const glm::dmat4& to_world)
+TrianglePlacer::TrianglePlacer(const Source& source, std::string object, const Pose& pose)
     : source_(source),
       object_(std::move(object)),
-      to_world_(to_world),
-      normal_to_world_(normal_transform(glm::dmat3(to_world))),
-      is_mirrored_(glm::determinant(glm::dmat3(to_world)) < 0) {}
+      pose_(pose),
+      normal_to_world_(normal_transform(glm::dmat3(pose.to_world()))),
+      is_mirrored_(glm::determinant(glm::dmat3(pose.to_world())) < 0) {}
+
+bool TrianglePlacer::is_mirrored(const Primitive& primitive, std::uint32_t vertex) const {
+  return pose_.is_rigid(primitive) ? is_mirrored_
+                                   : glm::determinant(glm::dmat3(pose_.to_world(primitive, vertex))) < 0;
+}
 
 std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::size_t index) {
   ++losses_.triangles;
   std::array<std::uint32_t, 3> vertices = primitive.triangle(source_, index);
-  if (is_mirrored_) std::swap(vertices[1], vertices[2]);
+  if (is_mirrored(primitive, vertices[0])) std::swap(vertices[1], vertices[2]);
   Triangle triangle{};
   for (std::size_t i = 0; i < 3; ++i) triangle.position[i] = world_position(primitive, vertices[i]);
   const glm::dvec3 area = area_vector(triangle.position);
@@ -68,7 +73,8 @@ void TrianglePlacer::note_flat(const Primitive& primitive, std::size_t index) {
 }
 
 glm::vec3 TrianglePlacer::world_position(const Primitive& primitive, std::uint32_t vertex) const {
-  const glm::dvec3 world(to_world_ * glm::dvec4(primitive.position(source_, vertex), 1.0));
+  const glm::dvec3 world(pose_.to_world(primitive, vertex) *
+                         glm::dvec4(primitive.position(source_, vertex), 1.0));
   const glm::dvec3 size = glm::abs(world);
   if (std::max({size.x, size.y, size.z}) > std::numeric_limits<float>::max()) {
     source_.fail("{}: vertex {} of {} overflows in world space; smaller positions or scales would be right",
@@ -86,7 +92,9 @@ glm::vec3 TrianglePlacer::world_normal(const Primitive& primitive, std::uint32_t
     ++losses_.zero_normals;
     return face_normal;
   }
-  const glm::dvec3 world = normal_to_world_ * local;
+  const glm::dvec3 world = pose_.is_rigid(primitive)
+                               ? normal_to_world_ * local
+                               : normal_transform(glm::dmat3(pose_.to_world(primitive, vertex))) * local;
   const double length = glm::length(world);
   if (length > 0 && glm::dot(world, face_normal) > 0) return world / length;
   ++losses_.opposed_normals;

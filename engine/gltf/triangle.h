@@ -1,7 +1,7 @@
 // Triangles of one mesh node, brought to world space.
 #pragma once
 
-#include "engine/gltf/primitive.h"
+#include "engine/gltf/pose.h"
 #include "engine/scene/scene.h"
 
 #include <glm/mat3x3.hpp>
@@ -25,7 +25,7 @@ struct Losses {
 class TrianglePlacer {
  public:
   // `object` is what messages call it.
-  TrianglePlacer(const Source& source, std::string object, const glm::dmat4& to_world);
+  TrianglePlacer(const Source& source, std::string object, const Pose& pose);
 
   // Nothing where the triangle has no area in world space. Material and object are left to the caller.
   std::optional<Triangle> place(const Primitive& primitive, std::size_t index);
@@ -36,11 +36,12 @@ class TrianglePlacer {
   void note_flat(const Primitive& primitive, std::size_t index);
   glm::vec3 world_position(const Primitive& primitive, std::uint32_t vertex) const;
   glm::vec3 world_normal(const Primitive& primitive, std::uint32_t vertex, const glm::dvec3& face_normal);
+  bool is_mirrored(const Primitive& primitive, std::uint32_t vertex) const;
 
   const Source& source_;
   std::string object_;
-  glm::dmat4 to_world_;
-  glm::dmat3 normal_to_world_;
+  const Pose& pose_;
+  glm::dmat3 normal_to_world_;  // of what is rigid, as the next
   bool is_mirrored_;
   Losses losses_;
 };

@@ -76,20 +76,12 @@ TEST_F(GltfWarningTest, WarnsOfLights) {
       "lights");
 }
 
-TEST_F(GltfWarningTest, WarnsOfSkinsAndAnimations) {
-  gltf.json["skins"] = {{{"name", "bones"}, {"joints", {1}}}};
-  gltf.json["nodes"][1]["skin"] = 0;
-  expect_warning("skin 'bones' is not modelled; its meshes keep their bind pose");
-  gltf.json.erase("skins");
-  gltf.json["nodes"][1].erase("skin");
+TEST_F(GltfWarningTest, WarnsOfAnimations) {
   gltf.json["animations"] = {{{"name", "walk"}}};
   expect_warning("animation 'walk' is not modelled; nodes keep their own transforms");
 }
 
-TEST_F(GltfWarningTest, WarnsOfMorphTargetsAndVertexColours) {
-  gltf.primitive_json()["targets"] = {{{"POSITION", 0}}};
-  expect_warning("mesh 'shape': morph targets are not modelled; the base shape is used");
-  gltf.primitive_json().erase("targets");
+TEST_F(GltfWarningTest, WarnsOfVertexColours) {
   gltf.primitive_json()["attributes"]["COLOR_0"] = 0;
   expect_warning("mesh 'shape': vertex colours (COLOR_0) are not modelled; they are ignored");
 }
