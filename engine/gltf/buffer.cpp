@@ -1,5 +1,7 @@
 #include "engine/gltf/buffer.h"
 
+#include "engine/gltf/meshopt.h"
+
 #include <algorithm>
 #include <charconv>
 #include <system_error>
@@ -77,7 +79,9 @@ std::vector<unsigned char> load(const Source& source, const std::string& buffer,
 void check_files(const Source& source, const nlohmann::json& buffers, std::size_t max_bytes) {
   std::size_t rest = max_bytes;
   for (const nlohmann::json& buffer : buffers) {
-    if (!buffer.contains("uri") || buffer["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
+    if (!buffer.contains("uri") || is_fallback(buffer) ||
+        buffer["uri"].get_ref<const std::string&>().starts_with("data:"))
+      continue;
     const auto size = buffer["byteLength"].get<std::size_t>();
     source.check(size <= rest, "the buffers ask for more than {} bytes of files, which is the most supported",
                  max_bytes);
@@ -95,6 +99,7 @@ std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann:
   if (array != document.end()) check_files(source, *array, max_bytes);
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const nlohmann::json& json = (*array)[i];
+    if (is_fallback(json)) continue;  // what it stands for is compressed elsewhere
     const auto size = json["byteLength"].get<std::size_t>();
     const std::string name = fmt::format("buffer {}", i);
     if (json.contains("uri")) {

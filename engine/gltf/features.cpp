@@ -14,9 +14,14 @@ constexpr std::string_view kLights = "KHR_lights_punctual";
 constexpr std::string_view kIor = "KHR_materials_ior";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
-constexpr std::array<std::string_view, 5> kSupported{"KHR_materials_emissive_strength",
-                                                     "KHR_materials_specular", kQuantization,
-                                                     "EXT_mesh_gpu_instancing", "KHR_node_visibility"};
+constexpr std::array<std::string_view, 8> kSupported{"KHR_materials_emissive_strength",
+                                                     "KHR_materials_specular",
+                                                     kQuantization,
+                                                     "EXT_mesh_gpu_instancing",
+                                                     "KHR_node_visibility",
+                                                     "EXT_meshopt_compression",
+                                                     "KHR_meshopt_compression",
+                                                     kDraco};
 
 bool is_supported(const std::string& extension) {
   return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
@@ -89,15 +94,6 @@ void check_extensions(Source& source, const json& document, bool names_lights) {
   }
 }
 
-void check_buffer_views(const Source& source, const json& views) {
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (const std::string_view name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-      source.check(!member(views[i], "extensions").contains(name),
-                   "bufferView {} is compressed with {}; uncompressed data would be right", i, name);
-    }
-  }
-}
-
 // Whether an attribute is of a type that glTF has by that extension alone.
 bool is_quantized(const json& document, const json& attributes, std::string_view name) {
   const json& index = member(attributes, name);
@@ -125,15 +121,9 @@ void check_quantization(Source& source, const json& document, const std::string&
   }
 }
 
-void check_mesh(Source& source, const std::string& mesh, const json& primitives) {
-  bool has_colors = false;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const json& primitive = primitives[i];
-    const std::string place = fmt::format("{} primitive {}", mesh, i);
-    source.check(!member(primitive, "extensions").contains(kDraco),
-                 "{} is compressed with {}; uncompressed data would be right", place, kDraco);
-    has_colors = has_colors || primitive["attributes"].contains("COLOR_0");
-  }
+void warn_of_colors(Source& source, const std::string& mesh, const json& primitives) {
+  const bool has_colors = std::ranges::any_of(
+      primitives, [](const json& primitive) { return primitive["attributes"].contains("COLOR_0"); });
   if (has_colors) source.warn("{}: vertex colours (COLOR_0) are not modelled; they are ignored", mesh);
 }
 
@@ -148,12 +138,11 @@ void warn_by_name(Source& source, std::string_view kind, const json& items, std:
 void check_features(Source& source, const json& document) {
   const json& lights = member(member(member(document, "extensions"), kLights), "lights");
   check_extensions(source, document, !lights.empty());
-  check_buffer_views(source, member(document, "bufferViews"));
   const json& meshes = member(document, "meshes");
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const std::string mesh = item_label("mesh", i, meshes[i]);
     const json& primitives = member(meshes[i], "primitives");
-    check_mesh(source, mesh, primitives);
+    warn_of_colors(source, mesh, primitives);
     check_quantization(source, document, mesh, primitives);
   }
   warn_by_name(source, "animation", member(document, "animations"), "nodes keep their own transforms");

@@ -2,6 +2,7 @@
 
 #include "engine/gltf/buffer.h"
 #include "engine/gltf/camera.h"
+#include "engine/gltf/draco.h"
 #include "engine/gltf/duplicates.h"
 #include "engine/gltf/expansion.h"
 #include "engine/gltf/features.h"
@@ -10,6 +11,7 @@
 #include "engine/gltf/json.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
+#include "engine/gltf/meshopt.h"
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
 #include "engine/gltf/schema.h"
@@ -43,6 +45,8 @@ void read_source(Source& source, FileContent content, const std::filesystem::pat
   check_features(source, document);
   std::vector<tinygltf::Buffer> buffers =
       load_buffers(source, document, file.parent_path(), std::move(content), limits.file_bytes);
+  decode_meshopt(source, document, buffers, limits.expanded_bytes);
+  decode_draco(source, document, buffers, limits.expanded_bytes);
   expand_accessors(source, document, buffers, limits.expanded_bytes);
   parse_model(source, std::move(document));
   source.model.buffers = std::move(buffers);

@@ -150,14 +150,6 @@ TEST_F(GltfAccessorTest, RefusesVertexDataThatIsNotFinite) {
   }
 }
 
-TEST_F(GltfAccessorTest, RefusesCompressedData) {
-  view(1)["extensions"] = {{"EXT_meshopt_compression", {{"buffer", 0}}}};
-  expect_error({"bufferView 1 is compressed with EXT_meshopt_compression"});
-  view(1).erase("extensions");
-  gltf.primitive_json()["extensions"] = {{"KHR_draco_mesh_compression", {{"bufferView", 0}}}};
-  expect_error({"mesh 'shape' primitive 0 is compressed with KHR_draco_mesh_compression"});
-}
-
 TEST_F(GltfAccessorTest, RefusesMoreTrianglesThanItCanHold) {
   const std::vector<std::uint32_t> many(std::size_t{3} << 16U, 0);
   set_indices(many, kUnsignedByte);

@@ -13,6 +13,7 @@ namespace {
 
 std::size_t component_count(std::string_view type) {
   if (type == "SCALAR") return 1;
+  if (type == "MAT4") return 16;
   return type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
 }
 
