@@ -30,12 +30,12 @@ bool emits(const Scene& scene, std::uint32_t triangle) {
   return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
 }
 
-// Pairs of which one emits at least, ordered by triangle.
+// Both emit; ordered by triangle.
 std::vector<Duplicate> find_duplicates(const Scene& scene) {
   const std::vector<Triangle>& triangles = scene.triangles;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-  keys.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (!emits(scene, i)) continue;
     const Corners corners = sorted_corners(triangles[i]);
     keys.emplace_back(XXH3_64bits(corners.data(), sizeof(corners)), i);
   }
@@ -50,7 +50,7 @@ std::vector<Duplicate> find_duplicates(const Scene& scene) {
     });
     if (original == kept.end()) {
       kept.push_back(triangle);
-    } else if (emits(scene, triangle) || emits(scene, *original)) {
+    } else {
       duplicates.push_back({triangle, *original});
     }
   }
@@ -62,7 +62,6 @@ bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
   const Material& first = scene.materials[a.material];
   const Material& second = scene.materials[b.material];
   if (first.emission != second.emission) return false;
-  if (first.emission == glm::vec3(0.0F)) return true;
   if (first.double_sided != second.double_sided) return false;
   return first.double_sided || glm::dot(area_vector(a.position), area_vector(b.position)) > 0;
 }

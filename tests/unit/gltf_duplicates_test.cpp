@@ -77,11 +77,7 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
       "triangle 0 of object 'thing' and triangle 0 of object 'second', about (0.3333, 0.3333, 0)",
       "have the same corners but do not emit alike; only one of them would be right"};
   gltf.add_triangle();
-  add_second(same, plain, glow);
-  expect_error(message);
-  gltf.json["materials"] = {glow, plain};
-  expect_error(message);
-  gltf.json["materials"] = {glow, glow};
+  add_second(same, glow, glow);
   EXPECT_EQ(load().triangles.size(), 1U);
   gltf.json["materials"][0]["doubleSided"] = true;
   expect_error(message);
@@ -92,6 +88,23 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
   expect_error(message);
   gltf.json["materials"][0]["doubleSided"] = gltf.json["materials"][1]["doubleSided"] = true;
   EXPECT_EQ(load().triangles.size(), 1U);
+}
+
+// Whatever their order, and to whichever side it shines.
+TEST_F(GltfDuplicates, WhatEmitsTakesThePlaceOfWhatDoesNot) {
+  for (const auto& corners : {same, rotated, turned}) {
+    gltf = GltfBuilder();
+    gltf.add_triangle();
+    add_second(corners, plain, glow);
+    for (const char* winner : {"second", "thing"}) {
+      const Scene scene = load();
+      ASSERT_EQ(scene.triangles.size(), 1U);
+      EXPECT_EQ(scene.objects.at(0).name, winner);
+      EXPECT_EQ(scene.materials.at(scene.triangles[0].material).name, "glow");
+      EXPECT_EQ(scene.warnings.size(), 1U);
+      gltf.json["materials"] = {glow, plain};
+    }
+  }
 }
 
 // Two corners in common are no duplicate.

@@ -1,0 +1,259 @@
+#include "engine/gltf/lamps.h"
+
+#include "engine/gltf/box_tree.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace qtrace::gltf {
+namespace {
+
+// Sixteen times the rounding of the scene's largest coordinate.
+constexpr double kRounding = 16 * 0x1p-24;
+// An overlap or a rest that is no wider than so many times that is no surface.
+constexpr double kSliver = 4;
+
+// A corner of what is left of a triangle, and where on the triangle it is.
+struct Corner {
+  glm::dvec3 position;
+  glm::dvec3 barycentric;
+};
+using Polygon = std::vector<Corner>;
+
+Polygon polygon_of(const Triangle& triangle) {
+  return {{triangle.position[0], {1, 0, 0}},
+          {triangle.position[1], {0, 1, 0}},
+          {triangle.position[2], {0, 0, 1}}};
+}
+
+// The part of it where `height`, which is linear, is not below 0 (Sutherland and Hodgman 1974).
+template <class Height>
+Polygon clipped(const Polygon& polygon, Height height) {
+  Polygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner& a = polygon[i];
+    const Corner& b = polygon[(i + 1) % polygon.size()];
+    const double at_a = height(a.position), at_b = height(b.position);
+    if (at_a >= 0) result.push_back(a);
+    if ((at_a < 0) == (at_b < 0)) continue;
+    const double t = at_a / (at_a - at_b);
+    result.push_back({glm::mix(a.position, b.position, t), glm::mix(a.barycentric, b.barycentric, t)});
+  }
+  return result;
+}
+
+double area(const Polygon& polygon) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    sum +=
+        glm::cross(polygon[i - 1].position - polygon[0].position, polygon[i].position - polygon[0].position);
+  }
+  return glm::length(sum) / 2;
+}
+
+// Whether it is wider than `width`, nearly.
+bool is_wide(const Polygon& polygon, double width) {
+  double around = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    around += glm::distance(polygon[i].position, polygon[(i + 1) % polygon.size()].position);
+  }
+  return area(polygon) > width * around / 2;
+}
+
+// A prism over a triangle: above it at any height.
+class Prism {
+ public:
+  explicit Prism(const Triangle& triangle) : normal_(glm::normalize(area_vector(triangle.position))) {
+    for (std::size_t i = 0; i < 3; ++i) corners_[i] = triangle.position[i];
+  }
+
+  // Above its plane.
+  double height(const glm::dvec3& p) const { return glm::dot(normal_, p - corners_[0]); }
+
+  Polygon inside(Polygon polygon) const {
+    for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
+      polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
+    }
+    return polygon;
+  }
+
+  // What of `polygon` is outside, in convex parts that are wider than `width`.
+  void add_outside(Polygon polygon, double width, std::vector<Polygon>& parts) const {
+    for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
+      Polygon part = clipped(polygon, [&](const glm::dvec3& p) { return -within(i, p); });
+      if (is_wide(part, width)) parts.push_back(std::move(part));
+      polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
+    }
+  }
+
+ private:
+  double within(std::size_t side, const glm::dvec3& p) const {
+    const glm::dvec3 edge = glm::normalize(corners_[(side + 1) % 3] - corners_[side]);
+    return glm::dot(glm::cross(normal_, edge), p - corners_[side]);
+  }
+
+  glm::dvec3 normal_;
+  std::array<glm::dvec3, 3> corners_;
+};
+
+bool emits(const Scene& scene, std::uint32_t triangle) {
+  return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
+}
+
+// Both emit: the same, to the same sides.
+bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
+  const Material& first = scene.materials[a.material];
+  const Material& second = scene.materials[b.material];
+  const bool same_sides =
+      first.double_sided || glm::dot(area_vector(a.position), area_vector(b.position)) > 0;
+  return first.emission == second.emission && first.double_sided == second.double_sided && same_sides;
+}
+
+struct Overlap {
+  std::uint32_t loser;
+  std::uint32_t winner;
+  double area;
+};
+
+class Lamps {
+ public:
+  Lamps(Source& source, Scene& scene) : source_(source), scene_(scene) {
+    double largest = 0;
+    for (const Triangle& triangle : scene.triangles) {
+      for (const glm::vec3& p : triangle.position) {
+        largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});
+      }
+    }
+    rounding_ = kRounding * largest;
+  }
+
+  void cut_out() {
+    find_overlaps();
+    if (overlaps_.empty()) return;
+    warn();
+    rebuild();
+  }
+
+ private:
+  std::string name_of(std::uint32_t triangle) const {
+    const std::uint32_t object = scene_.triangles[triangle].object;
+    return label("object", object, scene_.objects[object].name);
+  }
+
+  void find_overlaps() {
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
+      if (emits(scene_, i)) emitters.push_back(i);
+    }
+    if (emitters.empty()) return;
+    std::vector<Box> boxes;
+    for (const std::uint32_t emitter : emitters)
+      boxes.push_back(box_of(scene_.triangles[emitter], rounding_));
+    const BoxTree tree(std::move(boxes));
+    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
+      tree.visit(box_of(scene_.triangles[i], rounding_),
+                 [&](std::size_t found) { look_at(i, emitters[found]); });
+    }
+  }
+
+  void look_at(std::uint32_t triangle, std::uint32_t emitter) {
+    const bool both_emit = emits(scene_, triangle);
+    if (triangle == emitter || (both_emit && triangle < emitter)) return;  // each pair once
+    const Prism prism(scene_.triangles[emitter]);
+    const Polygon shared = prism.inside(polygon_of(scene_.triangles[triangle]));
+    const bool in_plane = std::ranges::all_of(
+        shared, [&](const Corner& corner) { return std::abs(prism.height(corner.position)) <= rounding_; });
+    if (!in_plane || !is_wide(shared, kSliver * rounding_)) return;
+    source_.check(!both_emit || emit_alike(scene_, scene_.triangles[emitter], scene_.triangles[triangle]),
+                  "{} and {} lie in one plane and overlap, and do not emit alike; only one of them would be "
+                  "right there",
+                  name_of(emitter), name_of(triangle));
+    overlaps_.push_back({triangle, emitter, area(shared)});
+  }
+
+  // One warning for each pair of objects.
+  void warn() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> areas;
+    for (const Overlap& overlap : overlaps_) {
+      areas[{scene_.triangles[overlap.loser].object, scene_.triangles[overlap.winner].object}] +=
+          overlap.area;
+    }
+    for (const auto& [pair, shared] : areas) {
+      const auto& [loser, winner] = pair;
+      source_.warn(
+          "{} and {}, which emits, share an area of {:.4g} in one plane: what emits is seen there, and the "
+          "other is "
+          "cut",
+          label("object", loser, scene_.objects[loser].name),
+          label("object", winner, scene_.objects[winner].name), shared);
+    }
+  }
+
+  // Ordered by loser, as find_overlaps() leaves them.
+  void rebuild() {
+    std::vector<Triangle> triangles;
+    std::vector<Object> objects;
+    auto next = overlaps_.cbegin();
+    for (const Object& object : scene_.objects) {
+      Object rest = object;
+      rest.first_triangle = static_cast<std::uint32_t>(triangles.size());
+      for (std::uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i) {
+        std::vector<Polygon> parts{polygon_of(scene_.triangles[i])};
+        const bool is_whole = next == overlaps_.cend() || next->loser != i;
+        for (; next != overlaps_.cend() && next->loser == i; ++next) parts = without(parts, next->winner);
+        if (is_whole)
+          triangles.push_back(scene_.triangles[i]);
+        else
+          for (const Polygon& part : parts) add_part(scene_.triangles[i], part, triangles);
+      }
+      rest.triangle_count = static_cast<std::uint32_t>(triangles.size()) - rest.first_triangle;
+      if (rest.triangle_count == 0) continue;
+      for (std::size_t i = rest.first_triangle; i < triangles.size(); ++i) {
+        triangles[i].object = static_cast<std::uint32_t>(objects.size());
+      }
+      objects.push_back(std::move(rest));
+    }
+    scene_.triangles = std::move(triangles);
+    scene_.objects = std::move(objects);
+  }
+
+  std::vector<Polygon> without(const std::vector<Polygon>& parts, std::uint32_t winner) const {
+    const Prism prism(scene_.triangles[winner]);
+    std::vector<Polygon> rest;
+    for (const Polygon& part : parts) prism.add_outside(part, rounding_, rest);
+    return rest;
+  }
+
+  static void add_part(const Triangle& whole, const Polygon& part, std::vector<Triangle>& triangles) {
+    for (std::size_t i = 2; i < part.size(); ++i) {
+      Triangle piece = whole;
+      const std::array<const Corner*, 3> corners{&part[0], &part[i - 1], &part[i]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3 b(corners[k]->barycentric);
+        piece.position[k] = corners[k]->position;
+        piece.normal[k] =
+            glm::normalize(b.x * whole.normal[0] + b.y * whole.normal[1] + b.z * whole.normal[2]);
+        piece.uv[k] = b.x * whole.uv[0] + b.y * whole.uv[1] + b.z * whole.uv[2];
+      }
+      if (area_of(piece) > 0) triangles.push_back(piece);
+    }
+  }
+
+  Source& source_;
+  Scene& scene_;
+  double rounding_ = 0;
+  std::vector<Overlap> overlaps_;
+};
+
+}  // namespace
+
+void cut_out_lamps(Source& source, Scene& scene) { Lamps(source, scene).cut_out(); }
+
+}  // namespace qtrace::gltf
