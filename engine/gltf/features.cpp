@@ -1,5 +1,7 @@
 #include "engine/gltf/features.h"
 
+#include "engine/gltf/support.h"
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -12,19 +14,15 @@ using nlohmann::json;
 
 constexpr std::string_view kLights = "KHR_lights_punctual";
 constexpr std::string_view kIor = "KHR_materials_ior";
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
-constexpr std::array<std::string_view, 8> kSupported{"KHR_materials_emissive_strength",
-                                                     "KHR_materials_specular",
-                                                     kQuantization,
-                                                     "EXT_mesh_gpu_instancing",
-                                                     "KHR_node_visibility",
-                                                     "EXT_meshopt_compression",
-                                                     "KHR_meshopt_compression",
-                                                     kDraco};
 
-bool is_supported(const std::string& extension) {
-  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
+std::string read_extensions() {
+  std::string names;
+  for (const Support& row : kSupport) {
+    const bool is_extension = row.name.starts_with("KHR_") || row.name.starts_with("EXT_");
+    if (is_extension && is_read(row.name)) names.append(names.empty() ? "" : ", ").append(row.name);
+  }
+  return names;
 }
 
 const json& member(const json& object, std::string_view name) {
@@ -73,14 +71,14 @@ bool changes_nothing(const json& document, const std::string& extension) {
 void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const json& required : member(document, "extensionsRequired")) {
     const auto name = required.get<std::string>();
-    source.check(is_supported(name), "the required extension {} is not supported; supported are {}", name,
-                 joined(kSupported, ", "));
+    source.check(is_read(name), "the required extension {} is not supported; supported are {}", name,
+                 read_extensions());
   }
   std::set<std::string> declared;
   for (const json& used : member(document, "extensionsUsed")) {
     const auto name = used.get<std::string>();
     declared.insert(name);
-    if (is_supported(name) || (name == kLights && names_lights) || changes_nothing(document, name)) continue;
+    if (is_read(name) || (name == kLights && names_lights) || changes_nothing(document, name)) continue;
     source.warn("extension {} is not modelled; the scene is read without it", name);
   }
   std::set<std::string> undeclared;
@@ -88,7 +86,7 @@ void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const std::string& name : undeclared) {
     if (declared.contains(name)) continue;
     source.warn("extension {} is used but not declared in extensionsUsed; {}", name,
-                is_supported(name) || changes_nothing(document, name)
+                is_read(name) || changes_nothing(document, name)
                     ? "it is read as if it were"
                     : "it is not modelled, and the scene is read without it");
   }

@@ -3,6 +3,7 @@
 #include "experiments/commands/compare.h"
 #include "experiments/commands/config.h"
 #include "experiments/commands/devices.h"
+#include "experiments/commands/gltf.h"
 #include "experiments/commands/inspect.h"
 #include "experiments/commands/keys.h"
 #include "experiments/commands/rerun.h"
@@ -33,6 +34,7 @@ int dispatch(int argc, const char* const* argv) {
   add_rerun_command(app, action);
   add_status_command(app, action);
   add_keys_command(app, action);
+  add_gltf_command(app, action);
   add_config_command(app, action);
   try {
     app.parse(argc, argv);

@@ -191,7 +191,8 @@ class SchemaTest(unittest.TestCase):
             self.assertEqual(qtrace("config", *arguments).returncode, 2, arguments)
 
     def test_docs_are_current(self) -> None:
-        for command, file in ((("keys", "--markdown"), "keys.md"), (("config", "schema"), "config.schema.json")):
+        for command, file in ((("keys", "--markdown"), "keys.md"), (("config", "schema"), "config.schema.json"),
+                              (("gltf", "--markdown"), "gltf.md")):
             self.assertEqual((ROOT / "docs" / file).read_text(), qtrace(*command).stdout,
                              f"build/release/qtrace {' '.join(command)} > docs/{file}")
 

@@ -1,0 +1,80 @@
+// What becomes of every property and extension of glTF 2.0: docs/gltf.md is this table.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace qtrace::gltf {
+
+enum class Treatment {
+  read,     // the picture has it
+  warned,   // it is left out, or stands for something simpler, and a warning says so
+  refused,  // the file cannot be read truly without it
+  unseen,   // no picture of this tracer could show it
+};
+
+constexpr std::string_view treatment_name(Treatment treatment) {
+  constexpr std::array<std::string_view, 4> kNames{"read", "warned of", "refused", "makes no difference"};
+  return kNames[static_cast<std::size_t>(treatment)];
+}
+
+// An extension, or a property by its path; several that belong together are one row.
+struct Support {
+  std::string_view name;
+  Treatment treatment;
+  std::string_view note;
+};
+
+inline constexpr Support kSupport[] = {
+    {"asset.version", Treatment::read, "2.0 and later 2.x"},
+    {"asset.minVersion", Treatment::refused, "other than 2.0"},
+    {"scene, scenes", Treatment::read, "the default scene, else the first; key `gltf_scene` chooses another"},
+    {"nodes: matrix, translation, rotation, scale", Treatment::read, "mirrored ones, too"},
+    {"nodes: camera", Treatment::read, "the first; key `camera` chooses another, or a place"},
+    {"nodes: skin", Treatment::read, "in the pose of its joints"},
+    {"nodes: weights, meshes: weights, targets", Treatment::read, "POSITION and NORMAL"},
+    {"primitives: POSITION, NORMAL, indices, mode 4 to 6", Treatment::read, "triangles, strips and fans"},
+    {"primitives: mode 0 to 3", Treatment::warned, "points and lines are left out"},
+    {"primitives: TEXCOORD_0", Treatment::read, "for sites that are placed by it (`rl.site_placement`)"},
+    {"primitives: TEXCOORD_1, TANGENT", Treatment::unseen, "serve textures"},
+    {"primitives: COLOR_0", Treatment::warned, "ignored"},
+    {"accessors: sparse, without a bufferView", Treatment::read, ""},
+    {"materials: baseColorFactor, metallicFactor, roughnessFactor", Treatment::read, ""},
+    {"materials: emissiveFactor", Treatment::read,
+     "above 1 with a warning; with emissiveStrength up to 1e12"},
+    {"materials: baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture",
+     Treatment::warned, "the factors alone are used"},
+    {"materials: emissiveTexture", Treatment::warned, "the material emits nothing"},
+    {"materials: alphaMode", Treatment::warned, "other than OPAQUE: the material is opaque"},
+    {"materials: doubleSided", Treatment::read,
+     "emission leaves both faces; surfaces reflect on both anyway"},
+    {"cameras: perspective, orthographic", Treatment::read,
+     "aspectRatio, znear and zfar with a warning where the picture differs from them"},
+    {"animations", Treatment::warned, "nodes keep their own transforms"},
+    {"extras", Treatment::unseen, ""},
+    {"extensionsRequired", Treatment::refused, "with an extension that is not read"},
+    {"overlapping surfaces in one plane", Treatment::warned,
+     "where one emits, it is seen, and cut out of the other; refused where both emit differently"},
+    {"EXT_mesh_gpu_instancing", Treatment::read, "TRANSLATION, ROTATION, SCALE"},
+    {"EXT_meshopt_compression", Treatment::read, ""},
+    {"KHR_draco_mesh_compression", Treatment::read, "triangles"},
+    {"KHR_lights_punctual", Treatment::warned, "emissive surfaces are the only lights"},
+    {"KHR_materials_emissive_strength", Treatment::read, ""},
+    {"KHR_materials_ior", Treatment::warned,
+     "where it shows: other than 1.5 with a dielectric that reflects"},
+    {"KHR_materials_specular", Treatment::read, "its textures with a warning"},
+    {"KHR_mesh_quantization", Treatment::read, ""},
+    {"KHR_meshopt_compression", Treatment::read, "as far as the installed meshoptimizer decodes it"},
+    {"KHR_node_visibility", Treatment::read, ""},
+    {"any other extension", Treatment::warned, "the scene is read without it"},
+};
+
+// Whether a file may require it.
+constexpr bool is_read(std::string_view extension) {
+  for (const Support& row : kSupport) {
+    if (row.name == extension) return row.treatment == Treatment::read;
+  }
+  return false;
+}
+
+}  // namespace qtrace::gltf

@@ -1,0 +1,179 @@
+// The table of what is read (docs/gltf.md) says what the reader does: a file for each of its rows.
+#include "engine/core/check.h"
+#include "engine/gltf/load_gltf.h"
+#include "engine/gltf/support.h"
+#include "tests/unit/gltf_builder.h"
+
+#include <functional>
+#include <map>
+
+namespace qtrace {
+namespace {
+
+using gltf::Treatment;
+using Change = std::function<void(GltfBuilder&)>;
+
+nlohmann::json& material(GltfBuilder& file) {
+  if (!file.json.contains("materials")) file.json["materials"] = {nlohmann::json::object()};
+  file.primitive_json()["material"] = 0;
+  return file.json["materials"][0];
+}
+
+void set_extension(GltfBuilder& file, const std::string& name, nlohmann::json& owner,
+                   const nlohmann::json& value) {
+  file.json["extensionsUsed"] = {name};
+  owner["extensions"][name] = value;
+}
+
+// Each makes a file that has what the row is about, where the plain one has it not.
+const std::map<std::string_view, Change>& examples() {
+  static const std::map<std::string_view, Change> all{
+      {"asset.version", [](GltfBuilder& f) { f.json["asset"]["version"] = "2.1"; }},
+      {"asset.minVersion", [](GltfBuilder& f) { f.json["asset"]["minVersion"] = "2.1"; }},
+      {"scene, scenes", [](GltfBuilder&) {}},
+      {"nodes: matrix, translation, rotation, scale",
+       [](GltfBuilder& f) {
+         f.json["nodes"][1]["scale"] = {-1, 1, 1};
+       }},
+      {"nodes: camera", [](GltfBuilder&) {}},
+      {"nodes: skin",
+       [](GltfBuilder& f) {
+         f.json["skins"] = {{{"joints", {0}}}};
+         f.json["nodes"][1]["skin"] = 0;
+       }},
+      {"nodes: weights, meshes: weights, targets",
+       [](GltfBuilder& f) {
+         f.primitive_json()["targets"] = {{{"POSITION", 0}}};
+         f.json["nodes"][1]["weights"] = {1};
+       }},
+      {"primitives: POSITION, NORMAL, indices, mode 4 to 6",
+       [](GltfBuilder& f) { f.primitive_json()["mode"] = kFan; }},
+      {"primitives: mode 0 to 3",
+       [](GltfBuilder& f) {
+         f.json["meshes"][0]["primitives"].push_back(f.primitive_json());
+         f.json["meshes"][0]["primitives"][1]["mode"] = kLines;
+       }},
+      {"primitives: TEXCOORD_0",
+       [](GltfBuilder& f) {
+         f.primitive_json()["attributes"]["TEXCOORD_0"] = f.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
+       }},
+      {"primitives: TEXCOORD_1, TANGENT",
+       [](GltfBuilder& f) {
+         f.primitive_json()["attributes"]["TEXCOORD_1"] = f.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
+       }},
+      {"primitives: COLOR_0", [](GltfBuilder& f) { f.primitive_json()["attributes"]["COLOR_0"] = 0; }},
+      {"accessors: sparse, without a bufferView",
+       [](GltfBuilder& f) {
+         f.primitive_json()["attributes"]["NORMAL"] = f.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
+         const std::size_t indices = f.add_indices({1}, kUnsignedShort);
+         f.json["accessors"][1]["sparse"] = {
+             {"count", 1},
+             {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+             {"values", {{"bufferView", 1}}}};
+       }},
+      {"materials: baseColorFactor, metallicFactor, roughnessFactor",
+       [](GltfBuilder& f) { material(f)["pbrMetallicRoughness"]["roughnessFactor"] = 0.5; }},
+      {"materials: emissiveFactor",
+       [](GltfBuilder& f) {
+         material(f)["emissiveFactor"] = {1, 1, 1};
+       }},
+      {"materials: baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture",
+       [](GltfBuilder& f) {
+         f.json["textures"] = {nlohmann::json::object()};
+         material(f)["normalTexture"]["index"] = 0;
+       }},
+      {"materials: emissiveTexture",
+       [](GltfBuilder& f) {
+         f.json["textures"] = {nlohmann::json::object()};
+         material(f)["emissiveTexture"]["index"] = 0;
+         material(f)["emissiveFactor"] = {1, 1, 1};
+       }},
+      {"materials: alphaMode", [](GltfBuilder& f) { material(f)["alphaMode"] = "MASK"; }},
+      {"materials: doubleSided", [](GltfBuilder& f) { material(f)["doubleSided"] = true; }},
+      {"cameras: perspective, orthographic",
+       [](GltfBuilder& f) {
+         f.json["cameras"][0] = {{"type", "orthographic"},
+                                 {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}};
+       }},
+      {"animations",
+       [](GltfBuilder& f) {
+         f.json["animations"] = {{{"name", "walk"}}};
+       }},
+      {"extras", [](GltfBuilder& f) { f.json["nodes"][1]["extras"]["mood"] = "calm"; }},
+      {"extensionsRequired",
+       [](GltfBuilder& f) {
+         f.json["extensionsRequired"] = f.json["extensionsUsed"] = {"KHR_materials_unlit"};
+       }},
+      {"overlapping surfaces in one plane",
+       [](GltfBuilder& f) {
+         material(f)["emissiveFactor"] = {1, 1, 1};
+         f.json["nodes"].push_back({{"mesh", f.add_mesh({f.primitive({0, 0, 0, 0.5F, 0, 0, 0, 0.5F, 0})})}});
+         f.json["scenes"][0]["nodes"].push_back(f.json["nodes"].size() - 1);
+       }},
+      {"EXT_mesh_gpu_instancing",
+       [](GltfBuilder& f) {
+         set_extension(f, "EXT_mesh_gpu_instancing", f.json["nodes"][1],
+                       {{"attributes", {{"TRANSLATION", f.add_floats("VEC3", {0, 0, 1})}}}});
+       }},
+      {"KHR_lights_punctual",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_lights_punctual", f.json, {{"lights", {{{"type", "point"}}}}});
+       }},
+      {"KHR_materials_emissive_strength",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_emissive_strength", material(f), {{"emissiveStrength", 3}});
+       }},
+      {"KHR_materials_ior",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_ior", material(f), {{"ior", 1.33}});
+         material(f)["pbrMetallicRoughness"]["metallicFactor"] = 0;
+       }},
+      {"KHR_materials_specular",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_specular", material(f), {{"specularFactor", 0.5}});
+       }},
+      {"KHR_mesh_quantization",
+       [](GltfBuilder& f) {
+         f.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+         const std::vector<std::int16_t> normals{0, 0, 32767, 0, 0, 32767, 0, 0, 32767};
+         const std::size_t accessor = f.add_accessor(normals, "VEC3", kShort);
+         f.json["accessors"][accessor]["normalized"] = true;
+         f.primitive_json()["attributes"]["NORMAL"] = accessor;
+       }},
+      {"KHR_node_visibility",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_node_visibility", f.json["nodes"][1], {{"visible", false}});
+         f.add_node({{"mesh", 0}});
+       }},
+      {"any other extension",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_sheen", material(f), nlohmann::json::object());
+       }},
+  };
+  return all;
+}
+
+class GltfSupport : public GltfTest, public ::testing::WithParamInterface<gltf::Support> {};
+
+TEST_P(GltfSupport, IsAsTheTableSays) {
+  const gltf::Support& row = GetParam();
+  if (row.name.find("_compression") != std::string_view::npos)
+    GTEST_SKIP() << "tests/unit/gltf_compression_test.cpp has its files";
+  const auto example = examples().find(row.name);
+  ASSERT_NE(example, examples().end()) << "no file has " << row.name;
+  gltf.add_triangle();
+  example->second(gltf);
+  if (row.treatment == Treatment::refused) return expect_error({});
+  const Scene scene = load();
+  EXPECT_EQ(!scene.warnings.empty(), row.treatment == Treatment::warned)
+      << ::testing::PrintToString(scene.warnings);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, GltfSupport, ::testing::ValuesIn(gltf::kSupport), [](const auto& row) {
+  std::string name;
+  for (const char c : row.param.name) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace qtrace
