@@ -10,7 +10,7 @@ namespace qtrace::gltf {
 // light sampling would count each, and which of them a ray meets would be a matter of rounding. Error that
 // names both where two do not emit alike, so that one would hide the other's light. Those that do not emit
 // stay: solids that touch have them, and they take no light from one another. What emits and what does not is
-// told apart elsewhere (lamps.h).
+// told apart elsewhere (overlaps.h).
 void drop_duplicates(Source& source, Scene& scene);
 
 }  // namespace qtrace::gltf

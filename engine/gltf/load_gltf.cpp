@@ -9,12 +9,12 @@
 #include "engine/gltf/file.h"
 #include "engine/gltf/instances.h"
 #include "engine/gltf/json.h"
-#include "engine/gltf/lamps.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
 #include "engine/gltf/meshopt.h"
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
+#include "engine/gltf/overlaps.h"
 #include "engine/gltf/schema.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   add_objects(source, nodes, scene);
   add_camera(source, nodes, view, scene);
   drop_duplicates(source, scene);
-  cut_out_lamps(source, scene);
+  cut_overlaps(source, scene);
   scene.warnings = std::move(source.warnings);
   if (source.more_warnings > 0) {
     scene.warnings.push_back(fmt::format("{} more warnings are left out", source.more_warnings));

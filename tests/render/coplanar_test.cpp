@@ -1,5 +1,5 @@
 // A lamp in the plane of a larger ceiling gives all of its light, by every method and in every order of the objects.
-#include "engine/gltf/lamps.h"
+#include "engine/gltf/overlaps.h"
 #include "tests/render/comparison.h"
 #include "tests/support/statistics.h"
 
@@ -58,7 +58,7 @@ class Coplanar : public testing::TestWithParam<bool> {
   static Scene mended(bool lamp_first) {
     Scene box = box_with_lamp_in_ceiling(lamp_first);
     gltf::Source source{"box", {}, {}, 0};
-    gltf::cut_out_lamps(source, box);
+    gltf::cut_overlaps(source, box);
     EXPECT_EQ(source.warnings.size(), 1U);
     return box;
   }

@@ -1,4 +1,4 @@
-#include "engine/gltf/lamps.h"
+#include "engine/gltf/overlaps.h"
 
 #include "engine/gltf/box_tree.h"
 
@@ -9,6 +9,8 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -122,81 +124,118 @@ struct Overlap {
   double area;
 };
 
-class Lamps {
- public:
-  Lamps(Source& source, Scene& scene) : source_(source), scene_(scene) {
-    double largest = 0;
-    for (const Triangle& triangle : scene.triangles) {
-      for (const glm::vec3& p : triangle.position) {
-        largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});
-      }
+double rounding_of(const Scene& scene) {
+  double largest = 0;
+  for (const Triangle& triangle : scene.triangles) {
+    for (const glm::vec3& p : triangle.position) {
+      largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});
     }
-    rounding_ = kRounding * largest;
   }
+  return kRounding * largest;
+}
 
-  void cut_out() {
-    find_overlaps();
+// What an object has of one material, which wins or loses as a whole.
+using Part = std::pair<std::uint32_t, std::uint32_t>;  // object, material
+
+class Overlaps {
+ public:
+  Overlaps(Source& source, Scene& scene) : source_(source), scene_(scene), rounding_(rounding_of(scene)) {}
+
+  void cut() {
+    find();
     if (overlaps_.empty()) return;
+    std::ranges::sort(overlaps_, {},
+                      [](const Overlap& overlap) { return std::pair(overlap.loser, overlap.winner); });
     warn();
     rebuild();
   }
 
  private:
-  std::string name_of(std::uint32_t triangle) const {
-    const std::uint32_t object = scene_.triangles[triangle].object;
+  const Triangle& triangle(std::uint32_t i) const { return scene_.triangles[i]; }
+  Part part_of(std::uint32_t i) const { return {triangle(i).object, triangle(i).material}; }
+  std::string name_of(std::uint32_t object) const {
     return label("object", object, scene_.objects[object].name);
   }
 
-  void find_overlaps() {
+  // Where all that does not emit has one material, emitters are all that can overlap with something else.
+  std::vector<std::uint32_t> candidates() const {
     std::vector<std::uint32_t> emitters;
+    std::set<std::uint32_t> others;
     for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-      if (emits(scene_, i)) emitters.push_back(i);
+      if (emits(scene_, i)) {
+        emitters.push_back(i);
+      } else if (others.size() < 2) {
+        others.insert(triangle(i).material);
+      }
     }
-    if (emitters.empty()) return;
+    if (others.size() < 2) return emitters;
+    std::vector<std::uint32_t> all(scene_.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+
+  void find() {
+    const std::vector<std::uint32_t> found_in = candidates();
+    if (found_in.empty()) return;
+    const bool has_all = found_in.size() == scene_.triangles.size();
+    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) areas_[part_of(i)] += area_of(triangle(i));
     std::vector<Box> boxes;
-    for (const std::uint32_t emitter : emitters)
-      boxes.push_back(box_of(scene_.triangles[emitter], rounding_));
+    for (const std::uint32_t i : found_in) boxes.push_back(box_of(triangle(i), rounding_));
     const BoxTree tree(std::move(boxes));
     for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-      tree.visit(box_of(scene_.triangles[i], rounding_),
-                 [&](std::size_t found) { look_at(i, emitters[found]); });
+      tree.visit(box_of(triangle(i), rounding_), [&](std::size_t found) {
+        const std::uint32_t other = found_in[found];
+        const bool comes_twice = has_all || emits(scene_, i);
+        if (i != other && (!comes_twice || i < other)) look_at(i, other);
+      });
     }
   }
 
-  void look_at(std::uint32_t triangle, std::uint32_t emitter) {
-    const bool both_emit = emits(scene_, triangle);
-    if (triangle == emitter || (both_emit && triangle < emitter)) return;  // each pair once
-    const Prism prism(scene_.triangles[emitter]);
-    const Polygon shared = prism.inside(polygon_of(scene_.triangles[triangle]));
+  bool may_matter(std::uint32_t a, std::uint32_t b) const {
+    if (emits(scene_, a) || emits(scene_, b)) return true;
+    return triangle(a).material != triangle(b).material &&
+           glm::dot(area_vector(triangle(a).position), area_vector(triangle(b).position)) > 0;
+  }
+
+  bool wins(std::uint32_t a, std::uint32_t b) const {
+    if (emits(scene_, a) != emits(scene_, b)) return emits(scene_, a);
+    if (emits(scene_, a)) return a < b;
+    return std::pair(areas_.at(part_of(a)), a) < std::pair(areas_.at(part_of(b)), b);
+  }
+
+  void look_at(std::uint32_t a, std::uint32_t b) {
+    if (!may_matter(a, b)) return;
+    const std::uint32_t winner = wins(a, b) ? a : b, loser = winner == a ? b : a;
+    const Prism prism(triangle(winner));
+    const Polygon shared = prism.inside(polygon_of(triangle(loser)));
     const bool in_plane = std::ranges::all_of(
         shared, [&](const Corner& corner) { return std::abs(prism.height(corner.position)) <= rounding_; });
     if (!in_plane || !is_wide(shared, kSliver * rounding_)) return;
-    source_.check(!both_emit || emit_alike(scene_, scene_.triangles[emitter], scene_.triangles[triangle]),
+    source_.check(!emits(scene_, loser) || emit_alike(scene_, triangle(winner), triangle(loser)),
                   "{} and {} lie in one plane and overlap, and do not emit alike; only one of them would be "
                   "right there",
-                  name_of(emitter), name_of(triangle));
-    overlaps_.push_back({triangle, emitter, area(shared)});
+                  name_of(triangle(winner).object), name_of(triangle(loser).object));
+    overlaps_.push_back({loser, winner, area(shared)});
   }
 
-  // One warning for each pair of objects.
+  // One warning for each pair of parts.
   void warn() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double> areas;
-    for (const Overlap& overlap : overlaps_) {
-      areas[{scene_.triangles[overlap.loser].object, scene_.triangles[overlap.winner].object}] +=
-          overlap.area;
-    }
+    std::map<std::pair<Part, Part>, double> areas;
+    for (const Overlap& overlap : overlaps_)
+      areas[{part_of(overlap.loser), part_of(overlap.winner)}] += overlap.area;
     for (const auto& [pair, shared] : areas) {
       const auto& [loser, winner] = pair;
+      const bool is_lamp = scene_.materials[winner.second].emission != glm::vec3(0.0F);
       source_.warn(
-          "{} and {}, which emits, share an area of {:.4g} in one plane: what emits is seen there, and the "
-          "other is "
-          "cut",
-          label("object", loser, scene_.objects[loser].name),
-          label("object", winner, scene_.objects[winner].name), shared);
+          "{} ({}) and {} ({}) share an area of {:.4g} in one plane: the second, which {}, is seen there, "
+          "and the "
+          "first is cut",
+          name_of(loser.first), scene_.materials[loser.second].name, name_of(winner.first),
+          scene_.materials[winner.second].name, shared, is_lamp ? "emits" : "is smaller");
     }
   }
 
-  // Ordered by loser, as find_overlaps() leaves them.
+  // Ordered by loser.
   void rebuild() {
     std::vector<Triangle> triangles;
     std::vector<Object> objects;
@@ -248,12 +287,13 @@ class Lamps {
 
   Source& source_;
   Scene& scene_;
-  double rounding_ = 0;
+  double rounding_;
+  std::map<Part, double> areas_;
   std::vector<Overlap> overlaps_;
 };
 
 }  // namespace
 
-void cut_out_lamps(Source& source, Scene& scene) { Lamps(source, scene).cut_out(); }
+void cut_overlaps(Source& source, Scene& scene) { Overlaps(source, scene).cut(); }
 
 }  // namespace qtrace::gltf
