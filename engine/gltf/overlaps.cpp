@@ -200,7 +200,7 @@ class Overlaps {
   bool wins(std::uint32_t a, std::uint32_t b) const {
     if (emits(scene_, a) != emits(scene_, b)) return emits(scene_, a);
     if (emits(scene_, a)) return a < b;
-    return std::pair(areas_.at(part_of(a)), a) < std::pair(areas_.at(part_of(b)), b);
+    return std::pair(areas_.at(part_of(a)), part_of(a)) < std::pair(areas_.at(part_of(b)), part_of(b));
   }
 
   void look_at(std::uint32_t a, std::uint32_t b) {

@@ -54,7 +54,8 @@ inline constexpr Support kSupport[] = {
     {"extras", Treatment::unseen, ""},
     {"extensionsRequired", Treatment::refused, "with an extension that is not read"},
     {"overlapping surfaces in one plane", Treatment::warned,
-     "where one emits, it is seen, and cut out of the other; refused where both emit differently"},
+     "the one that emits is seen, else the smaller one, and cut out of the other; refused where both emit, "
+     "and not alike"},
     {"EXT_mesh_gpu_instancing", Treatment::read, "TRANSLATION, ROTATION, SCALE"},
     {"EXT_meshopt_compression", Treatment::read, ""},
     {"KHR_draco_mesh_compression", Treatment::read, "triangles"},
