@@ -14,16 +14,14 @@ constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT, kByte = TINYGLTF_COMPONENT
               kUnsignedShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
               kUnsignedInt = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 
-constexpr std::array kPosition{
-    Component{kFloat, false}, {kByte, false},          {kByte, true},
-    {kUnsignedByte, false},   {kUnsignedByte, true},   {kShort, false},
-    {kShort, true},           {kUnsignedShort, false}, Component{kUnsignedShort, true}};
-constexpr std::array kNormal{Component{kFloat, false}, {kByte, true}, {kShort, true}};
-constexpr std::array kUv = kPosition;
-constexpr std::array kFloats{Component{kFloat, false}};
-constexpr std::array kJoints{Component{kUnsignedByte, false}, {kUnsignedShort, false}};
-constexpr std::array kWeights{Component{kFloat, false}, {kUnsignedByte, true}, {kUnsignedShort, true}};
-constexpr std::array kIndex{Component{kUnsignedByte, false}, {kUnsignedShort, false}, {kUnsignedInt, false}};
+constexpr Component kPosition[]{{kFloat, false},        {kByte, false},          {kByte, true},
+                                {kUnsignedByte, false}, {kUnsignedByte, true},   {kShort, false},
+                                {kShort, true},         {kUnsignedShort, false}, {kUnsignedShort, true}};
+constexpr Component kNormal[]{{kFloat, false}, {kByte, true}, {kShort, true}};
+constexpr Component kFloats[]{{kFloat, false}};
+constexpr Component kJoints[]{{kUnsignedByte, false}, {kUnsignedShort, false}};
+constexpr Component kWeights[]{{kFloat, false}, {kUnsignedByte, true}, {kUnsignedShort, true}};
+constexpr Component kIndex[]{{kUnsignedByte, false}, {kUnsignedShort, false}, {kUnsignedInt, false}};
 
 void check_layout(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
                   const std::string& role) {
@@ -58,7 +56,7 @@ void check_extent(const Source& source, const tinygltf::Accessor& accessor, cons
 
 const Layout kPositionLayout{TINYGLTF_TYPE_VEC3, kPosition, "VEC3 of float, or of bytes or shorts"};
 const Layout kNormalLayout{TINYGLTF_TYPE_VEC3, kNormal, "VEC3 of float, or of normalized bytes or shorts"};
-const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kUv, "VEC2 of float, or of bytes or shorts"};
+const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kPosition, "VEC2 of float, or of bytes or shorts"};
 const Layout kRotationLayout{TINYGLTF_TYPE_VEC4, kNormal, "VEC4 of float, or of normalized bytes or shorts"};
 const Layout kJointsLayout{TINYGLTF_TYPE_VEC4, kJoints, "VEC4 of unsigned bytes or shorts"};
 const Layout kWeightsLayout{TINYGLTF_TYPE_VEC4, kWeights,

@@ -8,7 +8,6 @@ namespace qtrace {
 template <class Visitor>
 void visit_knobs(Visitor& visit, CameraPlace& place) {
   constexpr double kMost = 1e18;  // squares of such distances fit a float
-  using experiments::KnobInfo;
   visit(KnobInfo{"position", "", "", -kMost, kMost}, place.position);
   visit(KnobInfo{"target", "", "", -kMost, kMost}, place.target);
   visit(KnobInfo{"up", "", "", -kMost, kMost}, place.up);

@@ -59,7 +59,7 @@ std::optional<glm::dmat3> to_rec709(const Imf::Header& header, const ExrLayer& l
       !differs(file.blue, kRec709.blue) && !differs(file.white, kRec709.white)) {
     return std::nullopt;
   }
-  const glm::dmat3 result = glm::inverse(kRec709ToXyz) * rgb_to_xyz(file);
+  const glm::dmat3 result = glm::inverse(rgb_to_xyz(kRec709)) * rgb_to_xyz(file);
   bool is_finite = true;
   for (int i = 0; i < 3; ++i)
     is_finite = is_finite && glm::all(glm::lessThan(glm::abs(result[i]), kHugeWeight));

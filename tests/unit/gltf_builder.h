@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -102,8 +102,7 @@ TEST_F(GltfCameraTest, WithoutOneTheMessageShowsOneThatWouldDo) {
   gltf.json["nodes"][0].erase("camera");
   expect_error(
       {"the scene has no camera; key 'camera' says where one stands: \"fit\" shows everything, as "
-       "{\"position\": [0.5, "
-       "0.5",
+       "{\"position\": [0.5, ",
        "\"target\": [0.5, 0.5, 0], \"fov\": 40} does here"});
 }
 

@@ -39,7 +39,7 @@ TEST(ViewKnobs, EveryFormOfACameraIsReadAndWritten) {
 }
 
 TEST(ViewKnobs, WhatIsNoCameraIsRefused) {
-  for (const char* text : {"-1", "1.5", "true", "null", "[0, 0, 1]"}) {
+  for (const char* text : {"-1", "1.5", "true", "null", "[0,0,1]"}) {
     EXPECT_NE(refusal_of(text).find(std::string("key 'camera' is ") + text +
                                     " but must be \"fit\", a camera's name"),
               std::string::npos)
