@@ -145,23 +145,20 @@ void warn_of_losses(Source& source, const std::string& place, const Lens& lens, 
   if (lens.aspect > 0 && std::max(lens.aspect / view.aspect, view.aspect / lens.aspect) > kSameAspect) {
     source.warn(
         "{}: the file means it for pictures {:.4g} times as wide as high, and this one is {:.4g} times; the "
-        "height "
-        "is what stays",
+        "height is what stays",
         place, lens.aspect, view.aspect);
   }
   if (lens.near > 0 && shows_at_depth(scene, view.aspect, 0, lens.near)) {
     source.warn(
         "{}: something in the picture is nearer than its znear of {:g}, which is not modelled: it is seen "
-        "all the "
-        "same",
+        "all the same",
         place, lens.near);
   }
   if (std::isfinite(lens.far) &&
       shows_at_depth(scene, view.aspect, lens.far, std::numeric_limits<double>::infinity())) {
     source.warn(
         "{}: something in the picture is farther than its zfar of {:g}, which is not modelled: it is seen "
-        "all the "
-        "same",
+        "all the same",
         place, lens.far);
   }
 }

@@ -1,7 +1,7 @@
 // Emitting triangles that lie exactly on others.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 #include "engine/scene/scene.h"
 
 namespace qtrace::gltf {

@@ -1,6 +1,6 @@
 #include "engine/gltf/instances.h"
 
-#include "engine/gltf/accessor.h"
+#include "engine/gltf_document/accessor.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>

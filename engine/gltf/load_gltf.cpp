@@ -1,62 +1,22 @@
 #include "engine/gltf/load_gltf.h"
 
-#include "engine/gltf/buffer.h"
 #include "engine/gltf/camera.h"
-#include "engine/gltf/draco.h"
 #include "engine/gltf/duplicates.h"
-#include "engine/gltf/expansion.h"
-#include "engine/gltf/features.h"
-#include "engine/gltf/file.h"
 #include "engine/gltf/instances.h"
-#include "engine/gltf/json.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
-#include "engine/gltf/meshopt.h"
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
 #include "engine/gltf/overlaps.h"
-#include "engine/gltf/schema.h"
-
-#include <algorithm>
+#include "engine/gltf_document/document.h"
 
 namespace qtrace {
 namespace gltf {
 namespace {
 
-// tinygltf gets no more than the tracer models: it would decode images, follow buffers out of the scene's
-// folder, and refuse files for mistakes in what is not used.
-void parse_model(Source& source, nlohmann::json document) {
-  for (const char* unused : {"animations", "buffers", "extensions", "images", "samplers", "textures"}) {
-    document.erase(unused);
-  }
-  const std::string text = document.dump();
-  tinygltf::TinyGLTF parser;
-  std::string errors;
-  std::string warnings;
-  const bool is_parsed = parser.LoadASCIIFromString(&source.model, &errors, &warnings, text.c_str(),
-                                                    static_cast<unsigned>(text.size()), "");
-  std::replace(errors.begin(), errors.end(), '\n', ' ');
-  source.check(is_parsed && errors.empty(), "the glTF is not valid: {}", errors);
-}
-
-void read_source(Source& source, FileContent content, const std::filesystem::path& file,
-                 const SceneLimits& limits) {
-  nlohmann::json document = parse_json(source, content.json);
-  check_json(source, document);
-  check_features(source, document);
-  std::vector<tinygltf::Buffer> buffers =
-      load_buffers(source, document, file.parent_path(), std::move(content), limits.file_bytes);
-  decode_meshopt(source, document, buffers, limits.expanded_bytes);
-  decode_draco(source, document, buffers, limits.expanded_bytes);
-  expand_accessors(source, document, buffers, limits.expanded_bytes);
-  parse_model(source, std::move(document));
-  source.model.buffers = std::move(buffers);
-}
-
 Scene make_scene(FileContent content, const std::filesystem::path& file, const View& view,
                  const SceneLimits& limits) {
-  Source source{file.string(), {}, {}, 0};
-  read_source(source, std::move(content), file, limits);
+  Source source = read_document(std::move(content), file, limits);
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);

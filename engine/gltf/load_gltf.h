@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/gltf/limits.h"
+#include "engine/gltf_document/limits.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 #include "engine/scene/scene.h"
 
 #include <vector>

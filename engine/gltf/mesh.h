@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/gltf/limits.h"
 #include "engine/gltf/node.h"
+#include "engine/gltf_document/limits.h"
 #include "engine/scene/scene.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The node hierarchy, flattened.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 #include "engine/scene/view.h"
 
 #include <glm/mat4x4.hpp>

@@ -1,6 +1,7 @@
 #include "engine/gltf/overlaps.h"
 
 #include "engine/gltf/box_tree.h"
+#include "engine/gltf/prism.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,89 +22,9 @@ namespace {
 constexpr double kRounding = 16 * 0x1p-24;
 // An overlap or a rest that is no wider than so many times that is no surface.
 constexpr double kSliver = 4;
-
-// A corner of what is left of a triangle, and where on the triangle it is.
-struct Corner {
-  glm::dvec3 position;
-  glm::dvec3 barycentric;
-};
-using Polygon = std::vector<Corner>;
-
-Polygon polygon_of(const Triangle& triangle) {
-  return {{triangle.position[0], {1, 0, 0}},
-          {triangle.position[1], {0, 1, 0}},
-          {triangle.position[2], {0, 0, 1}}};
-}
-
-// The part of it where `height`, which is linear, is not below 0 (Sutherland and Hodgman 1974).
-template <class Height>
-Polygon clipped(const Polygon& polygon, Height height) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner& a = polygon[i];
-    const Corner& b = polygon[(i + 1) % polygon.size()];
-    const double at_a = height(a.position), at_b = height(b.position);
-    if (at_a >= 0) result.push_back(a);
-    if ((at_a < 0) == (at_b < 0)) continue;
-    const double t = at_a / (at_a - at_b);
-    result.push_back({glm::mix(a.position, b.position, t), glm::mix(a.barycentric, b.barycentric, t)});
-  }
-  return result;
-}
-
-double area(const Polygon& polygon) {
-  glm::dvec3 sum(0.0);
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    sum +=
-        glm::cross(polygon[i - 1].position - polygon[0].position, polygon[i].position - polygon[0].position);
-  }
-  return glm::length(sum) / 2;
-}
-
-// Whether it is wider than `width`, nearly.
-bool is_wide(const Polygon& polygon, double width) {
-  double around = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    around += glm::distance(polygon[i].position, polygon[(i + 1) % polygon.size()].position);
-  }
-  return area(polygon) > width * around / 2;
-}
-
-// A prism over a triangle: above it at any height.
-class Prism {
- public:
-  explicit Prism(const Triangle& triangle) : normal_(glm::normalize(area_vector(triangle.position))) {
-    for (std::size_t i = 0; i < 3; ++i) corners_[i] = triangle.position[i];
-  }
-
-  // Above its plane.
-  double height(const glm::dvec3& p) const { return glm::dot(normal_, p - corners_[0]); }
-
-  Polygon inside(Polygon polygon) const {
-    for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
-      polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
-    }
-    return polygon;
-  }
-
-  // What of `polygon` is outside, in convex parts that are wider than `width`.
-  void add_outside(Polygon polygon, double width, std::vector<Polygon>& parts) const {
-    for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
-      Polygon part = clipped(polygon, [&](const glm::dvec3& p) { return -within(i, p); });
-      if (is_wide(part, width)) parts.push_back(std::move(part));
-      polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
-    }
-  }
-
- private:
-  double within(std::size_t side, const glm::dvec3& p) const {
-    const glm::dvec3 edge = glm::normalize(corners_[(side + 1) % 3] - corners_[side]);
-    return glm::dot(glm::cross(normal_, edge), p - corners_[side]);
-  }
-
-  glm::dvec3 normal_;
-  std::array<glm::dvec3, 3> corners_;
-};
+// What does not emit overlaps where it shares so much of the smaller part. Bodies that touch, as a pot on a
+// book, often share a few triangles' edges in one plane, and no picture shows which of them is met there.
+constexpr double kLeastShare = 0.01;
 
 bool emits(const Scene& scene, std::uint32_t triangle) {
   return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
@@ -136,6 +57,7 @@ double rounding_of(const Scene& scene) {
 
 // What an object has of one material, which wins or loses as a whole.
 using Part = std::pair<std::uint32_t, std::uint32_t>;  // object, material
+using Pair = std::pair<Part, Part>;                    // the loser, the winner
 
 class Overlaps {
  public:
@@ -143,6 +65,7 @@ class Overlaps {
 
   void cut() {
     find();
+    forget_touches();
     if (overlaps_.empty()) return;
     std::ranges::sort(overlaps_, {},
                       [](const Overlap& overlap) { return std::pair(overlap.loser, overlap.winner); });
@@ -218,20 +141,39 @@ class Overlaps {
     overlaps_.push_back({loser, winner, area(shared)});
   }
 
+  Pair pair_of(const Overlap& overlap) const { return {part_of(overlap.loser), part_of(overlap.winner)}; }
+
+  std::map<Pair, double> shared_areas() const {
+    std::map<Pair, double> areas;
+    for (const Overlap& overlap : overlaps_) areas[pair_of(overlap)] += overlap.area;
+    return areas;
+  }
+
+  bool is_lamp(const Part& part) const { return scene_.materials[part.second].emission != glm::vec3(0.0F); }
+
+  void forget_touches() {
+    const std::map<Pair, double> shared = shared_areas();
+    std::erase_if(overlaps_, [&](const Overlap& overlap) {
+      const Pair pair = pair_of(overlap);
+      return !is_lamp(pair.second) &&
+             shared.at(pair) < kLeastShare * std::min(areas_.at(pair.first), areas_.at(pair.second));
+    });
+  }
+
+  const char* reason(const Part& loser, const Part& winner) const {
+    if (is_lamp(winner)) return is_lamp(loser) ? "emits the same and comes first" : "emits";
+    return areas_.at(winner) < areas_.at(loser) ? "is smaller" : "comes first in the file";
+  }
+
   // One warning for each pair of parts.
   void warn() {
-    std::map<std::pair<Part, Part>, double> areas;
-    for (const Overlap& overlap : overlaps_)
-      areas[{part_of(overlap.loser), part_of(overlap.winner)}] += overlap.area;
-    for (const auto& [pair, shared] : areas) {
+    for (const auto& [pair, shared] : shared_areas()) {
       const auto& [loser, winner] = pair;
-      const bool is_lamp = scene_.materials[winner.second].emission != glm::vec3(0.0F);
       source_.warn(
-          "{} ({}) and {} ({}) share an area of {:.4g} in one plane: the second, which {}, is seen there, "
-          "and the "
-          "first is cut",
+          "{} ({}) and {} ({}) share an area of {:.4g} in one plane; only the latter is seen there, because "
+          "it {}",
           name_of(loser.first), scene_.materials[loser.second].name, name_of(winner.first),
-          scene_.materials[winner.second].name, shared, is_lamp ? "emits" : "is smaller");
+          scene_.materials[winner.second].name, shared, reason(loser, winner));
     }
   }
 

@@ -1,7 +1,7 @@
 // One mesh primitive as a list of triangles in the mesh's own space.
 #pragma once
 
-#include "engine/gltf/accessor.h"
+#include "engine/gltf_document/accessor.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "experiments/commands/gltf.h"
 
-#include "engine/gltf/support.h"
+#include "engine/gltf_document/support.h"
 #include "experiments/files/text_table.h"
 
 #include <CLI/CLI.hpp>

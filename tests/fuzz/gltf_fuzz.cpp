@@ -1,6 +1,6 @@
 // Feeds bytes to the glTF loader: .glb where they begin as one, else .gltf.
 #include "engine/core/check.h"
-#include "engine/gltf/file.h"
+#include "engine/gltf_document/file.h"
 #include "engine/gltf/load_gltf.h"
 #include "tests/fuzz/expect.h"
 #include "tests/fuzz/json_mutator.h"

@@ -76,7 +76,7 @@ def config_words() -> set[str]:
 
 def gltf_words() -> set[str]:
     """The properties that the loader reads, and the words that their values may be."""
-    rules = (ROOT / "engine/gltf/rules.h").read_text()
+    rules = (ROOT / "engine/gltf_document/rules.h").read_text()
     words = set()
     for text in re.findall(r'"([^"\n]+)"', rules):
         words |= set(re.split(r"[/! ]+", text)) - {"", "[]", "{}"}

@@ -150,9 +150,9 @@ TEST_F(GltfFileTest, RefusesBuffersOutsideTheFolder) {
 }
 
 TEST_F(GltfFileTest, RefusesRequiredExtensions) {
-  gltf.json["extensionsRequired"] = {"KHR_materials_specular", "KHR_mesh_quantization"};
-  expect_error({"the required extension KHR_mesh_quantization is not supported",
-                "KHR_materials_emissive_strength and KHR_materials_specular"});
+  gltf.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_texture_basisu"};
+  expect_error({"the required extension KHR_texture_basisu is not supported",
+                "KHR_materials_emissive_strength, KHR_materials_specular"});
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ TEST_F(GltfMaterialTest, ReadsEveryFactor) {
 
 TEST_F(GltfMaterialTest, TakesTheDefaultsOfTheFormat) {
   material().erase("name");
-  gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive_json());
-  gltf.json["meshes"][0]["primitives"][1].erase("material");
+  gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive({0, 0, 1, 1, 0, 1, 0, 1, 1}));
   const Scene scene = load();
   ASSERT_EQ(scene.materials.size(), 2U);
   Material expected;

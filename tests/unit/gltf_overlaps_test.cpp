@@ -84,7 +84,7 @@ TEST_F(GltfOverlapsTest, ALampIsCutOutOfItsCeilingWhateverTheirOrder) {
     EXPECT_NEAR(area_of_material(scene, "plain"), 4 - 0.33, 1e-6);
     ASSERT_EQ(scene.warnings.size(), 1U);
     EXPECT_NE(
-        scene.warnings[0].find("share an area of 0.33 in one plane: the second, which emits, is seen there"),
+        scene.warnings[0].find("share an area of 0.33 in one plane; only the latter is seen there, because it emits"),
         std::string::npos)
         << scene.warnings[0];
     for (const Triangle& triangle : scene.triangles) {
@@ -168,10 +168,30 @@ TEST_F(GltfOverlapsTest, OfTwoThatDoNotEmitTheSmallerIsSeen) {
     EXPECT_EQ(at(scene, 0.03F, 0.01F), (std::pair<int, std::string>{1, "wool"}));
     ASSERT_EQ(scene.warnings.size(), 1U);
     EXPECT_NE(scene.warnings[0].find(
-                  "share an area of 0.33 in one plane: the second, which is smaller, is seen there"),
+                  "in one plane; only the latter is seen there, because it is smaller"),
               std::string::npos)
         << scene.warnings[0];
   }
+}
+
+// As the edges of a pot on a book: too little of either to be seen.
+TEST_F(GltfOverlapsTest, BodiesThatMerelyTouchStay) {
+  gltf.json["materials"][1] = {{"name", "wool"}};
+  add("plain", kCeiling);
+  add("wool", {0.999F, -1, 2, 1});
+  EXPECT_EQ(load().triangles.size(), 4U);
+  EXPECT_TRUE(load().warnings.empty());
+  add("wool", {-2, -1, -0.98F, 1});  // a fiftieth of it
+  EXPECT_EQ(load().warnings.size(), 1U);
+  EXPECT_EQ(at(load(), -0.99F, 0.5F).first, 1);
+}
+
+// Of a lamp nothing is too little: a hair's breadth of it would still be lost half.
+TEST_F(GltfOverlapsTest, ALampWinsHoweverSmallTheOverlap) {
+  add("plain", kCeiling);
+  add("glow", {0.999F, -1, 2, 1});
+  EXPECT_EQ(load().warnings.size(), 1U);
+  EXPECT_EQ(at(load(), 0.9995F, 0.5F), (std::pair<int, std::string>{1, "glow"}));
 }
 
 // As a box stands on a floor: nobody sees either of them there.

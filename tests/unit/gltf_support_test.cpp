@@ -1,7 +1,7 @@
 // The table of what is read (docs/gltf.md) says what the reader does: a file for each of its rows.
 #include "engine/core/check.h"
 #include "engine/gltf/load_gltf.h"
-#include "engine/gltf/support.h"
+#include "engine/gltf_document/support.h"
 #include "tests/unit/gltf_builder.h"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "engine/gltf/expansion.h"
+#include "engine/gltf_document/expansion.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "engine/gltf/json.h"
+#include "engine/gltf_document/json.h"
 
 #include <limits>
 

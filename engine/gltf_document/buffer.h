@@ -1,8 +1,8 @@
 // Loads the buffers of a scene: BIN chunk, data URI, or a file that stays inside the scene's folder.
 #pragma once
 
-#include "engine/gltf/file.h"
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/file.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

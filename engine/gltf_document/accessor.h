@@ -1,7 +1,7 @@
 // Checked, typed reads of vertex attributes and indices.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

@@ -1,7 +1,7 @@
 // Primitives that are compressed with Draco (KHR_draco_mesh_compression).
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
-#include "engine/gltf/draco.h"
+#include "engine/gltf_document/draco.h"
 
-#include "engine/gltf/expansion.h"
+#include "engine/gltf_document/expansion.h"
 
 #include <draco/compression/decode.h>
 #include <draco/mesh/mesh.h>

@@ -1,6 +1,6 @@
-#include "engine/gltf/features.h"
+#include "engine/gltf_document/features.h"
 
-#include "engine/gltf/support.h"
+#include "engine/gltf_document/support.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "engine/gltf/accessor.h"
+#include "engine/gltf_document/accessor.h"
 
 #include <algorithm>
 #include <array>

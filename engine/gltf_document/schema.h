@@ -2,7 +2,7 @@
 // where a property has the wrong type, wraps integers that are too large, and leaves most indices unchecked.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
-#include "engine/gltf/meshopt.h"
+#include "engine/gltf_document/meshopt.h"
 
-#include "engine/gltf/expansion.h"
+#include "engine/gltf_document/expansion.h"
 
 #include <meshoptimizer.h>
 

@@ -1,7 +1,7 @@
 // Accessors whose data is not simply there: sparse ones, and those without a bufferView.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // The JSON of a scene file.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "engine/gltf/file.h"
+#include "engine/gltf_document/file.h"
 
 #include "engine/core/check.h"
 

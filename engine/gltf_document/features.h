@@ -2,7 +2,7 @@
 // it, a warning where it can.
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
-#include "engine/gltf/buffer.h"
+#include "engine/gltf_document/buffer.h"
 
-#include "engine/gltf/meshopt.h"
+#include "engine/gltf_document/meshopt.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
-#include "engine/gltf/schema.h"
+#include "engine/gltf_document/schema.h"
 
-#include "engine/gltf/rules.h"
+#include "engine/gltf_document/rules.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Buffer views that are compressed with meshoptimizer (EXT_meshopt_compression, KHR_meshopt_compression).
 #pragma once
 
-#include "engine/gltf/source.h"
+#include "engine/gltf_document/source.h"
 
 #include <nlohmann/json.hpp>
 
