@@ -76,12 +76,15 @@ std::vector<unsigned char> load(const Source& source, const std::string& buffer,
 }
 
 // Before the first is read. What lies inside the scene's own file cannot be larger than that.
-void check_files(const Source& source, const nlohmann::json& buffers, std::size_t max_bytes) {
+void check_files(const Source& source, const nlohmann::json& buffers, const std::vector<bool>& is_read,
+                 std::size_t max_bytes) {
   std::size_t rest = max_bytes;
-  for (const nlohmann::json& buffer : buffers) {
-    if (!buffer.contains("uri") || is_fallback(buffer) ||
-        buffer["uri"].get_ref<const std::string&>().starts_with("data:"))
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const nlohmann::json& buffer = buffers[i];
+    if (!is_read[i] || !buffer.contains("uri") ||
+        buffer["uri"].get_ref<const std::string&>().starts_with("data:")) {
       continue;
+    }
     const auto size = buffer["byteLength"].get<std::size_t>();
     source.check(size <= rest, "the buffers ask for more than {} bytes of files, which is the most supported",
                  max_bytes);
@@ -95,11 +98,13 @@ std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann:
                                            const fs::path& folder, FileContent content,
                                            std::size_t max_bytes) {
   const auto array = document.find("buffers");
-  std::vector<tinygltf::Buffer> buffers(array == document.end() ? 0 : array->size());
-  if (array != document.end()) check_files(source, *array, max_bytes);
+  if (array == document.end()) return {};
+  const std::vector<bool> is_read = buffers_that_are_read(document);
+  check_files(source, *array, is_read, max_bytes);
+  std::vector<tinygltf::Buffer> buffers(array->size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
+    if (!is_read[i]) continue;
     const nlohmann::json& json = (*array)[i];
-    if (is_fallback(json)) continue;  // what it stands for is compressed elsewhere
     const auto size = json["byteLength"].get<std::size_t>();
     const std::string name = fmt::format("buffer {}", i);
     if (json.contains("uri")) {

@@ -16,11 +16,13 @@ constexpr std::string_view kLights = "KHR_lights_punctual";
 constexpr std::string_view kIor = "KHR_materials_ior";
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
 
-std::string read_extensions() {
+std::string extensions_to_require() {
   std::string names;
   for (const Support& row : kSupport) {
     const bool is_extension = row.name.starts_with("KHR_") || row.name.starts_with("EXT_");
-    if (is_extension && is_read(row.name)) names.append(names.empty() ? "" : ", ").append(row.name);
+    if (is_extension && may_be_required(row.treatment)) {
+      names.append(names.empty() ? "" : ", ").append(row.name);
+    }
   }
   return names;
 }
@@ -63,22 +65,25 @@ bool needs_ior(const json& material) {
   return !is_default && is_dielectric && reflects;
 }
 
-// Whether the picture is exact although the extension is not modelled.
-bool changes_nothing(const json& document, const std::string& extension) {
-  return extension == kIor && std::ranges::none_of(member(document, "materials"), needs_ior);
+// Whether the picture is as the file says, as far as this extension goes.
+bool shows_in_full(const json& document, const std::string& extension) {
+  const bool is_ior_unseen =
+      extension == kIor && std::ranges::none_of(member(document, "materials"), needs_ior);
+  return is_ior_unseen || shows_in_full(treatment_of(extension));
 }
 
 void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const json& required : member(document, "extensionsRequired")) {
     const auto name = required.get<std::string>();
-    source.check(is_read(name), "the required extension {} is not supported; supported are {}", name,
-                 read_extensions());
+    source.check(may_be_required(treatment_of(name)),
+                 "the required extension {} is not supported; supported are {}", name,
+                 extensions_to_require());
   }
   std::set<std::string> declared;
   for (const json& used : member(document, "extensionsUsed")) {
     const auto name = used.get<std::string>();
     declared.insert(name);
-    if (is_read(name) || (name == kLights && names_lights) || changes_nothing(document, name)) continue;
+    if (shows_in_full(document, name) || (name == kLights && names_lights)) continue;
     source.warn("extension {} is not modelled; the scene is read without it", name);
   }
   std::set<std::string> undeclared;
@@ -86,9 +91,8 @@ void check_extensions(Source& source, const json& document, bool names_lights) {
   for (const std::string& name : undeclared) {
     if (declared.contains(name)) continue;
     source.warn("extension {} is used but not declared in extensionsUsed; {}", name,
-                is_read(name) || changes_nothing(document, name)
-                    ? "it is read as if it were"
-                    : "it is not modelled, and the scene is read without it");
+                shows_in_full(document, name) ? "it is read as if it were"
+                                              : "it is not modelled, and the scene is read without it");
   }
 }
 

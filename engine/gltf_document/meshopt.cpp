@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace qtrace::gltf {
 namespace {
@@ -98,19 +99,26 @@ std::span<const unsigned char> compressed_bytes(const Source& source, const json
   return std::span(bytes).subspan(offset, length);
 }
 
-}  // namespace
-
-bool is_fallback(const json& buffer) {
-  const auto extensions = buffer.find("extensions");
-  if (extensions == buffer.end() || !extensions->is_object()) return false;
+// The extension by which a buffer view is compressed, if it is.
+std::optional<json::const_iterator> compression_of(const json& view) {
+  const auto extensions = view.find("extensions");
+  if (extensions == view.end()) return {};
   for (const char* name : kExtensions) {
     const auto extension = extensions->find(name);
-    if (extension != extensions->end() && extension->is_object() &&
-        extension->value("fallback", json(false)) == true) {
-      return true;
-    }
+    if (extension != extensions->end()) return extension;
   }
-  return false;
+  return {};
+}
+
+}  // namespace
+
+std::vector<bool> buffers_that_are_read(const json& document) {
+  std::vector<bool> is_read(document.value("buffers", json::array()).size());
+  for (const json& view : document.value("bufferViews", json::array())) {
+    const auto compression = compression_of(view);
+    is_read.at((compression ? **compression : view).at("buffer").get<std::size_t>()) = true;
+  }
+  return is_read;
 }
 
 void decode_meshopt(const Source& source, json& document, std::vector<tinygltf::Buffer>& buffers,
@@ -119,21 +127,19 @@ void decode_meshopt(const Source& source, json& document, std::vector<tinygltf::
   std::size_t rest = max_bytes;
   for (std::size_t i = 0; views != document.end() && i < views->size(); ++i) {
     json& view = (*views)[i];
-    for (const char* name : kExtensions) {
-      if (!view.contains("extensions") || !view["extensions"].contains(name)) continue;
-      const json extension = view["extensions"][name];
-      const std::string place = fmt::format("bufferView {} {}", i, name);
-      const Decoder decoder(source, place, extension, compressed_bytes(source, extension, place, buffers));
-      const std::size_t size = decoder.size(rest);
-      rest -= size;
-      view["buffer"] = buffers.size();
-      view["byteOffset"] = 0;
-      view["byteLength"] = size;
-      view.erase("extensions");
-      std::vector<unsigned char> bytes = decoder.decoded(size);
-      buffers.emplace_back().data = std::move(bytes);
-      break;
-    }
+    const auto compression = compression_of(view);
+    if (!compression) continue;
+    const std::string place = fmt::format("bufferView {} {}", i, compression->key());
+    const json extension = **compression;
+    const Decoder decoder(source, place, extension, compressed_bytes(source, extension, place, buffers));
+    const std::size_t size = decoder.size(rest);
+    rest -= size;
+    view["buffer"] = buffers.size();
+    view["byteOffset"] = 0;
+    view["byteLength"] = size;
+    view.erase("extensions");
+    std::vector<unsigned char> bytes = decoder.decoded(size);
+    buffers.emplace_back().data = std::move(bytes);
   }
 }
 

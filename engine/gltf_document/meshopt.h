@@ -10,8 +10,9 @@
 
 namespace qtrace::gltf {
 
-// Whether a buffer only stands for what is compressed elsewhere, and has no bytes.
-bool is_fallback(const nlohmann::json& buffer);
+// For each buffer, whether a buffer view reads it. A compressed view reads the buffer with its compressed
+// bytes; the one that it stands for may have none. The document has passed check_json().
+std::vector<bool> buffers_that_are_read(const nlohmann::json& document);
 
 // Gives each compressed bufferView the bytes that it stands for. Error where these cannot be decoded, or
 // where all of them would have more than `max_bytes`. The document has passed check_json().

@@ -7,14 +7,16 @@
 namespace qtrace::gltf {
 
 enum class Treatment {
-  read,     // the picture has it
-  warned,   // it is left out, or stands for something simpler, and a warning says so
-  refused,  // the file cannot be read truly without it
-  unseen,   // no picture of this tracer could show it
+  read,          // the picture has it
+  approximated,  // something simpler stands for it, and a warning says so
+  warned,        // it is left out, and a warning says so
+  refused,       // the file cannot be read truly without it
+  unseen,        // no picture of this tracer could show it
 };
 
 constexpr std::string_view treatment_name(Treatment treatment) {
-  constexpr std::array<std::string_view, 4> kNames{"read", "warned of", "refused", "makes no difference"};
+  constexpr std::array<std::string_view, 5> kNames{
+      "read", "approximated, with a warning", "left out, with a warning", "refused", "makes no difference"};
   return kNames[static_cast<std::size_t>(treatment)];
 }
 
@@ -24,6 +26,8 @@ struct Support {
   Treatment treatment;
   std::string_view note;
 };
+
+inline constexpr std::string_view kServesTextures = "as the textures that it serves";
 
 inline constexpr Support kSupport[] = {
     {"asset.version", Treatment::read, "2.0 and later 2.x"},
@@ -43,39 +47,53 @@ inline constexpr Support kSupport[] = {
     {"materials: emissiveFactor", Treatment::read,
      "above 1 with a warning; with emissiveStrength up to 1e12"},
     {"materials: baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture",
-     Treatment::warned, "the factors alone are used"},
+     Treatment::approximated, "the factors alone are used"},
     {"materials: emissiveTexture", Treatment::warned, "the material emits nothing"},
-    {"materials: alphaMode", Treatment::warned, "other than OPAQUE: the material is opaque"},
+    {"materials: alphaMode", Treatment::approximated, "other than OPAQUE: the material is opaque"},
     {"materials: doubleSided", Treatment::read,
      "emission leaves both faces; surfaces reflect on both anyway"},
     {"cameras: perspective, orthographic", Treatment::read,
      "aspectRatio, znear and zfar with a warning where the picture differs from them"},
     {"animations", Treatment::warned, "nodes keep their own transforms"},
     {"extras", Treatment::unseen, ""},
-    {"extensionsRequired", Treatment::refused, "with an extension that is not read"},
-    {"overlapping surfaces in one plane", Treatment::warned,
-     "the one that emits is seen, else the smaller one, and cut out of the other; refused where both emit, "
-     "and not alike"},
+    {"extensionsRequired", Treatment::refused, "where it names an extension that would be left out"},
+    {"overlapping surfaces in one plane", Treatment::approximated,
+     "the one that emits is seen there, else the smaller one; refused where both emit, and not alike"},
     {"EXT_mesh_gpu_instancing", Treatment::read, "TRANSLATION, ROTATION, SCALE"},
+    {"EXT_texture_avif", Treatment::approximated, kServesTextures},
+    {"EXT_texture_webp", Treatment::approximated, kServesTextures},
     {"EXT_meshopt_compression", Treatment::read, ""},
     {"KHR_draco_mesh_compression", Treatment::read, "triangles"},
     {"KHR_lights_punctual", Treatment::warned, "emissive surfaces are the only lights"},
     {"KHR_materials_emissive_strength", Treatment::read, ""},
-    {"KHR_materials_ior", Treatment::warned,
+    {"KHR_materials_ior", Treatment::approximated,
      "where it shows: other than 1.5 with a dielectric that reflects"},
     {"KHR_materials_specular", Treatment::read, "its textures with a warning"},
+    {"KHR_materials_variants", Treatment::unseen, "each mesh has the material that it comes with"},
     {"KHR_mesh_quantization", Treatment::read, ""},
     {"KHR_meshopt_compression", Treatment::read, "as far as the installed meshoptimizer decodes it"},
     {"KHR_node_visibility", Treatment::read, ""},
-    {"any other extension", Treatment::warned, "the scene is read without it"},
+    {"KHR_texture_basisu", Treatment::approximated, kServesTextures},
+    {"KHR_texture_transform", Treatment::approximated, kServesTextures},
+    {"KHR_xmp_json_ld", Treatment::unseen, "says who made the file"},
+    {"any other extension", Treatment::warned, "refused where a file requires it"},
 };
 
-// Whether a file may require it.
-constexpr bool is_read(std::string_view extension) {
+// Of an extension. One that no row names is left out.
+constexpr Treatment treatment_of(std::string_view extension) {
   for (const Support& row : kSupport) {
-    if (row.name == extension) return row.treatment == Treatment::read;
+    if (row.name == extension) return row.treatment;
   }
-  return false;
+  return Treatment::warned;
+}
+
+// The format has files refused that require what would be left out.
+constexpr bool may_be_required(Treatment treatment) {
+  return treatment != Treatment::warned && treatment != Treatment::refused;
+}
+
+constexpr bool shows_in_full(Treatment treatment) {
+  return treatment == Treatment::read || treatment == Treatment::unseen;
 }
 
 }  // namespace qtrace::gltf

@@ -89,6 +89,12 @@ TEST_F(GltfMeshoptTest, ABufferThatOnlyStandsForItNeedsNoBytes) {
       {{"byteLength", gltf.binary.size()}},
       {{"byteLength", 1000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
   expect_same_as_plain();
+  gltf.json["buffers"][1].erase("extensions");
+  expect_same_as_plain();
+  gltf.json["buffers"][1]["uri"] = "not_delivered.bin";
+  expect_same_as_plain();
+  gltf.json["bufferViews"][0].erase("extensions");
+  expect_error({"buffer 1: 'not_delivered.bin': there is no such file"});
 }
 
 TEST_F(GltfMeshoptTest, FiltersAreUndone) {

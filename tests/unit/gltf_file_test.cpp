@@ -130,7 +130,13 @@ TEST_F(GltfFileTest, RefusesBuffersThatCannotBeRead) {
   expect_uri_error("data:application/octet-stream;base64,!",
                    {"buffer 0: the data URI is empty or not base64"});
   gltf.json["buffers"] = {{{"byteLength", 36}}, {{"byteLength", 36}}};
+  gltf.json["bufferViews"][0]["buffer"] = 1;
   expect_error({"buffer 1 has no uri; only buffer 0 of a .glb"});
+}
+
+TEST_F(GltfFileTest, BuffersThatNothingReadsMayBeMissing) {
+  gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}, {{"byteLength", 9}, {"uri", "none.bin"}}};
+  EXPECT_EQ(load().triangles.size(), 1U);
 }
 
 TEST_F(GltfFileTest, RefusesBuffersOutsideTheFolder) {
@@ -150,9 +156,9 @@ TEST_F(GltfFileTest, RefusesBuffersOutsideTheFolder) {
 }
 
 TEST_F(GltfFileTest, RefusesRequiredExtensions) {
-  gltf.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_texture_basisu"};
-  expect_error({"the required extension KHR_texture_basisu is not supported",
-                "KHR_materials_emissive_strength, KHR_materials_specular"});
+  gltf.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_sheen"};
+  expect_error({"the required extension KHR_materials_sheen is not supported",
+                "KHR_mesh_quantization, KHR_meshopt_compression"});
 }
 
 }  // namespace

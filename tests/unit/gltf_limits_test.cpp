@@ -70,6 +70,9 @@ TEST_F(GltfLimitsTest, BuffersThatShareAFileAreCounted) {
   folder.write("data.bin", std::string(kSize, '\0'));
   const nlohmann::json buffer = {{"byteLength", kSize}, {"uri", "data.bin"}};
   gltf.json["buffers"] = std::vector<nlohmann::json>(8193, buffer);
+  for (std::size_t i = 0; i < 8193; ++i) {
+    gltf.json["bufferViews"].push_back({{"buffer", i}, {"byteLength", 1}});
+  }
   expect_error(folder.write("scene.gltf", gltf.json.dump()),
                {"the buffers ask for more than 8589934592 bytes of files, which is the most supported"});
 }

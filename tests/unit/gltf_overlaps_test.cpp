@@ -83,9 +83,9 @@ TEST_F(GltfOverlapsTest, ALampIsCutOutOfItsCeilingWhateverTheirOrder) {
     EXPECT_NEAR(area_of_material(scene, "glow"), 0.33, 1e-6);
     EXPECT_NEAR(area_of_material(scene, "plain"), 4 - 0.33, 1e-6);
     ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_NE(
-        scene.warnings[0].find("share an area of 0.33 in one plane; only the latter is seen there, because it emits"),
-        std::string::npos)
+    EXPECT_NE(scene.warnings[0].find(
+                  "share an area of 0.33 in one plane; only the latter is seen there, because it emits"),
+              std::string::npos)
         << scene.warnings[0];
     for (const Triangle& triangle : scene.triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -167,8 +167,7 @@ TEST_F(GltfOverlapsTest, OfTwoThatDoNotEmitTheSmallerIsSeen) {
     EXPECT_NEAR(area_of_material(scene, "plain"), 4 - 0.33, 1e-6);
     EXPECT_EQ(at(scene, 0.03F, 0.01F), (std::pair<int, std::string>{1, "wool"}));
     ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_NE(scene.warnings[0].find(
-                  "in one plane; only the latter is seen there, because it is smaller"),
+    EXPECT_NE(scene.warnings[0].find("in one plane; only the latter is seen there, because it is smaller"),
               std::string::npos)
         << scene.warnings[0];
   }
