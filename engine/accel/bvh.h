@@ -12,6 +12,7 @@
 namespace qtrace {
 
 inline constexpr std::uint32_t kNoNode = 0xffffffff;
+inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
 // Deepest leaf, the root being at 0: shaders keep a stack of as many links.
 inline constexpr int kMaxBvhDepth = 62;
 
@@ -28,7 +29,8 @@ struct BvhNode {
 struct Bvh {
   BvhKind kind = BvhKind::threaded;  // how shaders are to walk it
   std::vector<BvhNode> nodes;
-  std::vector<std::uint32_t> order;  // triangle indices of the scene, each once, leaf by leaf
+  // Triangle indices of the scene, each once, leaf by leaf; kNoTriangle alone where it has none.
+  std::vector<std::uint32_t> order;
 };
 
 }  // namespace qtrace

@@ -1,13 +1,16 @@
+// What is the same for every way to build a hierarchy.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/accel/bvh.h"
 
 #include <cstdint>
 
 namespace qtrace {
 
-// Throws Error where a hierarchy cannot be built: for a scene without triangles, or leaves of none or
-// over 15.
-void check_buildable(const Scene& scene, std::uint32_t leaf_size);
+// Throws Error where leaves could hold no triangle, or over 15.
+void check_leaf_size(std::uint32_t leaf_size);
+
+// Of a scene without triangles: one leaf that no ray hits anything in.
+Bvh empty_bvh(BvhKind kind);
 
 }  // namespace qtrace

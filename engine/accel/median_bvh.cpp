@@ -67,7 +67,8 @@ class Builder {
 }  // namespace
 
 Bvh build_median_bvh(const Scene& scene, std::uint32_t leaf_size) {
-  check_buildable(scene, leaf_size);
+  check_leaf_size(leaf_size);
+  if (scene.triangles.empty()) return empty_bvh(BvhKind::threaded);
   return Builder(scene, leaf_size).take();
 }
 

@@ -180,7 +180,8 @@ class Builder {
 }  // namespace
 
 Bvh build_sah_bvh(const Scene& scene, std::uint32_t leaf_size) {
-  check_buildable(scene, leaf_size);
+  check_leaf_size(leaf_size);
+  if (scene.triangles.empty()) return empty_bvh(BvhKind::sah);
   Bvh bvh = Builder(scene, leaf_size).build();
   reinsert_subtrees(bvh);
   return bvh;

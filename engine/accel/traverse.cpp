@@ -30,6 +30,7 @@ bool meets_box(const BvhNode& node, const Ray& ray, double t_max) {
 
 // Moeller & Trumbore 1997.
 std::optional<RayHit> intersect_triangle(const Scene& scene, std::uint32_t triangle, const Ray& ray) {
+  if (triangle == kNoTriangle) return std::nullopt;
   const auto& p = scene.triangles[triangle].position;
   const glm::dvec3 edge1 = glm::dvec3(p[1]) - glm::dvec3(p[0]);
   const glm::dvec3 edge2 = glm::dvec3(p[2]) - glm::dvec3(p[0]);

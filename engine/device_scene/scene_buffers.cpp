@@ -19,10 +19,17 @@ constexpr float kDielectricF0 = 0.04F;
 
 float as_float(uint bits) { return std::bit_cast<float>(bits); }
 
+// Stands for kNoTriangle: all of its corners are one point, which no ray hits.
+constexpr TriangleShape kPoint{};
+
 std::vector<TriangleShape> pack_shapes(const Scene& scene, const Bvh& bvh) {
   std::vector<TriangleShape> shapes;
   shapes.reserve(bvh.order.size());
   for (const uint i : bvh.order) {
+    if (i == kNoTriangle) {
+      shapes.push_back(kPoint);
+      continue;
+    }
     const auto& p = scene.triangles[i].position;
     shapes.push_back({vec4(p[0], 0), vec4(p[1], 0), vec4(p[2], 0)});
   }
@@ -33,6 +40,10 @@ std::vector<TriangleShade> pack_shades(const Scene& scene, const Bvh& bvh, const
   std::vector<TriangleShade> shades;
   shades.reserve(bvh.order.size());
   for (const uint i : bvh.order) {
+    if (i == kNoTriangle) {
+      shades.push_back({});
+      continue;
+    }
     const Triangle& t = scene.triangles[i];
     shades.push_back({vec4(t.normal[0], as_float(t.material)), vec4(t.normal[1], as_float(t.object)),
                       vec4(t.normal[2], as_float(lights.triangle_of[i]))});

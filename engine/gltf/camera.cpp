@@ -144,8 +144,9 @@ void warn_of_losses(Source& source, const std::string& place, const Lens& lens, 
                     const Scene& scene) {
   if (lens.aspect > 0 && std::max(lens.aspect / view.aspect, view.aspect / lens.aspect) > kSameAspect) {
     source.warn(
-        "{}: the file means it for pictures {:.4g} times as wide as high, and this one is {:.4g} times; the "
-        "height is what stays",
+        "{}: its aspectRatio is {:.4g} and the picture's is {:.4g}; the height of what is seen stays, the "
+        "width "
+        "does not",
         place, lens.aspect, view.aspect);
   }
   if (lens.near > 0 && shows_at_depth(scene, view.aspect, 0, lens.near)) {

@@ -156,8 +156,7 @@ void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& sc
   for (const PlacedNode& node : nodes) {
     if (node.mesh >= 0) builder.add(node, transforms);
   }
-  source.check(!scene.triangles.empty(),
-               "the scene has no triangles; a node whose mesh has triangles of some area would be right");
+  if (scene.triangles.empty()) source.warn("the scene has no triangles; nothing but the environment is seen");
 }
 
 }  // namespace qtrace::gltf

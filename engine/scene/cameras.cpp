@@ -104,6 +104,7 @@ CameraPlace fitting_place(const std::vector<Triangle>& triangles, const glm::dve
   const double height = std::tan(glm::radians(place.vertical_fov) / 2);
   const glm::dvec3 back(0, std::sin(glm::radians(kElevation)), std::cos(glm::radians(kElevation)));
   const glm::dvec3 right(1, 0, 0), up = glm::cross(back, right);
+  if (triangles.empty()) return {{0, 0, 1}};  // what there is besides is the same from everywhere
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const Triangle& triangle : triangles) {
     for (const glm::vec3& p : triangle.position)

@@ -13,7 +13,7 @@ namespace {
 
 // `markdown`: the page docs/gltf.md.
 int print_support(bool markdown) {
-  const std::vector<std::string> header{"property or extension", "what becomes of it", ""};
+  const std::vector<std::string> header{"property or extension", "what becomes of it", "note"};
   std::vector<std::vector<std::string>> rows;
   for (const gltf::Support& row : gltf::kSupport) {
     rows.push_back(
@@ -25,8 +25,7 @@ int print_support(bool markdown) {
   }
   fmt::print(
       "# What is read of a glTF file\n\nMade by `qtrace gltf --markdown`, from the table by which the reader "
-      "itself "
-      "judges. Warnings name the mesh, the material or the node.\n\n{}",
+      "itself judges. Warnings name the mesh, the material or the node.\n\n{}",
       markdown_table(header, rows, header.size()));
   return 0;
 }

@@ -56,8 +56,8 @@ RunConfig config_of(const Json& manifest, const fs::path& file) {
 }
 
 LoadedScene load_scene(const fs::path& file, const View& view, const std::string& hash) {
-  check(fs::is_regular_file(file),
-        "{}: the scene of this run is not there; inspect it from the folder where it was run", file.string());
+  check(is_file(file), "{}: the scene of this run is not there; inspect it from the folder where it was run",
+        file.string());
   SceneStore store;
   LoadedScene scene = store.load(file, view);
   check(scene.hash == hash,
@@ -72,7 +72,7 @@ LoadedScene load_scene(const fs::path& file, const View& view, const std::string
 // scene that is gone or has changed since.
 InspectedRun read_inspected_run(const fs::path& folder, std::optional<int> frame) {
   const fs::path file = folder / "manifest.json";
-  check(fs::is_regular_file(file),
+  check(is_file(file),
         "{}: is not the folder of a run, which has a manifest.json: results/<experiment>/<run>",
         folder.string());
   const Json manifest = read_json_file(file);

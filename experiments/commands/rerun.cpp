@@ -54,7 +54,7 @@ const Json& part(const Json& manifest, const char* name, const fs::path& file) {
 // Where a scene is now: beside the results as it was, or where the manifest says.
 fs::path scene_file(const Json& scene, const fs::path& manifest) {
   const fs::path beside = (manifest.parent_path() / scene.value("from_here", "")).lexically_normal();
-  return fs::is_regular_file(beside) ? beside : fs::path(scene.value("file", ""));
+  return is_file(beside) ? beside : fs::path(scene.value("file", ""));
 }
 
 Run run_of(const Json& manifest, const fs::path& file) {

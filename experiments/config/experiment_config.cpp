@@ -88,8 +88,7 @@ void drop_schema(Json& config) {
 
 Json read_preset(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;
-  check(std::filesystem::is_regular_file(file),
-        "there is no such file; it is looked for in the config's folder");
+  check(is_file(file), "there is no such file; it is looked for in the config's folder");
   check(std::filesystem::file_size(file) <= kMostBytes, "the preset has {} bytes; at most {} would be right",
         std::filesystem::file_size(file), kMostBytes);
   const Json raw = read_json_file(file);

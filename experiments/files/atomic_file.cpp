@@ -114,6 +114,11 @@ void write_file(const fs::path& target, std::string_view content) {
   file.commit();
 }
 
+bool is_file(const fs::path& file) {
+  std::error_code unreadable;
+  return fs::is_regular_file(file, unreadable);
+}
+
 std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   check(stream.good() && !fs::is_directory(file), "{}: cannot be read; is it a file?", file.string());

@@ -47,6 +47,9 @@ void flush_to_disk(const std::vector<std::filesystem::path>& files);
 // Replaces the file's content. Throws Error that names it, and then the old content is still there.
 void write_file(const std::filesystem::path& target, std::string_view content);
 
+// Whether there is such a file. A name that no file can have, as one that is too long, is no error.
+bool is_file(const std::filesystem::path& file);
+
 // Reads a whole file. Throws Error that names it.
 std::string read_file(const std::filesystem::path& file);
 

@@ -69,8 +69,7 @@ void write_exr(const std::filesystem::path& file, const ExrImage& image) {
 }
 
 ExrImage read_exr(const std::filesystem::path& file) {
-  check(std::filesystem::is_regular_file(file), "{}: no such file; an OpenEXR image is needed",
-        file.string());
+  check(is_file(file), "{}: no such file; an OpenEXR image is needed", file.string());
   try {
     return read_planes(file);
   } catch (const std::exception& error) {

@@ -1,6 +1,7 @@
 #include "experiments/images/exr_picture.h"
 
 #include "engine/core/check.h"
+#include "experiments/files/atomic_file.h"
 #include "experiments/images/colour.h"
 #include "experiments/images/exr.h"
 #include "experiments/images/exr_images.h"
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::unique_ptr<Imf::MultiPartInputFile> open(const fs::path& file) {
-  check(fs::is_regular_file(file), "{}: no such file; an OpenEXR image is needed", file.string());
+  check(is_file(file), "{}: no such file; an OpenEXR image is needed", file.string());
   try {
     return std::make_unique<Imf::MultiPartInputFile>(file.c_str());
   } catch (const std::exception& error) {

@@ -3,10 +3,10 @@
 #include "engine/core/check.h"
 #include "engine/gltf/load_gltf.h"
 #include "experiments/config/view_knobs.h"
+#include "experiments/files/atomic_file.h"
 #include "experiments/runtime/scene_hash.h"
 
 #include <algorithm>
-#include <system_error>
 
 namespace qtrace::experiments {
 
@@ -24,9 +24,7 @@ const LoadedScene& SceneStore::load(const std::filesystem::path& file, const Vie
       fmt::format("{}\n{}\n{}", file.lexically_normal().string(), view_text(view), view.aspect);
   const auto found = scenes_.find(key);
   if (found != scenes_.end()) return found->second;
-  std::error_code unreadable;  // a name that is too long, say
-  check(std::filesystem::is_regular_file(file, unreadable),
-        "{}: no such scene; key 'scene' is relative to the config file", file.string());
+  check(is_file(file), "{}: no such scene; key 'scene' is relative to the config file", file.string());
   LoadedScene loaded{file, view, load_gltf(file, view), ""};
   loaded.hash = scene_hash(loaded.scene);
   return scenes_.emplace(key, std::move(loaded)).first->second;

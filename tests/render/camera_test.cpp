@@ -56,6 +56,21 @@ TEST(Orthographic, RaysAreParallel) {
   }
 }
 
+// As a file of points alone: every ray finds the environment, exactly.
+TEST(EmptyScene, ShowsTheEnvironment) {
+  Scene nothing;
+  for (const Method& method : all_methods()) {
+    for (const BvhKind bvh : {BvhKind::sah, BvhKind::threaded}) {
+      RenderSettings s = with_method(settings(), method);
+      s.bvh = bvh;
+      s.environment = {0.5, 1, 2};
+      const Rendering found = render(nothing, s, 2);
+      EXPECT_EQ(found.non_finite, 0U);
+      for (const glm::dvec3& pixel : found.image.mean) ASSERT_EQ(pixel, glm::dvec3(0.5, 1, 2)) << method.name;
+    }
+  }
+}
+
 // The lamp fills a twelfth of the picture from wherever it is seen.
 TEST(Orthographic, ALampFillsItsShareOfThePicture) {
   for (const float distance : {0.5F, 40.0F}) {

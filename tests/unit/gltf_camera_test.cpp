@@ -12,9 +12,32 @@
 namespace qtrace {
 namespace {
 
-View through(const NameOrIndex& camera) { return {.camera = {.of_file = camera}}; }
-View from(const CameraPlace& place) { return {.camera = {CameraChoice::Kind::placed, {}, place}}; }
-View fit(double aspect) { return {.camera = {.kind = CameraChoice::Kind::fit}, .aspect = aspect}; }
+View through(const NameOrIndex& camera) {
+  View view;
+  view.camera.of_file = camera;
+  return view;
+}
+View from(const CameraPlace& place) {
+  View view;
+  view.camera.kind = CameraChoice::Kind::placed;
+  view.camera.place = place;
+  return view;
+}
+View with_aspect(double aspect) {
+  View view;
+  view.aspect = aspect;
+  return view;
+}
+View fit(double aspect) {
+  View view = with_aspect(aspect);
+  view.camera.kind = CameraChoice::Kind::fit;
+  return view;
+}
+View of_scene(const NameOrIndex& scene) {
+  View view;
+  view.scene = scene;
+  return view;
+}
 
 class GltfCameraTest : public GltfTest {
  protected:
@@ -26,7 +49,7 @@ class GltfCameraTest : public GltfTest {
     gltf.json["cameras"] = {{{"type", "perspective"}, {"perspective", lens}}};
     gltf.json["nodes"][0]["translation"] = {0, 0, 10};
     gltf.json["nodes"][1]["scale"] = {4, 4, 1};
-    return load({.aspect = aspect}).warnings;
+    return load(with_aspect(aspect)).warnings;
   }
 
   void expect_position(const Scene& scene, glm::vec3 position) const {
@@ -109,7 +132,7 @@ TEST_F(GltfCameraTest, WithoutOneTheMessageShowsOneThatWouldDo) {
 TEST_F(GltfCameraTest, OrthographicHasAFilmInPlaceOfAnAngle) {
   gltf.json["cameras"][0] = {{"type", "orthographic"},
                              {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}};
-  const Scene scene = load({.aspect = 1.5});
+  const Scene scene = load(with_aspect(1.5));
   EXPECT_EQ(scene.camera.film_height, 4);
   EXPECT_TRUE(scene.warnings.empty());
   for (const char* size : {"xmag", "ymag"}) {
@@ -126,10 +149,9 @@ TEST_F(GltfCameraTest, WarnsOfAnotherAspectRatio) {
   EXPECT_TRUE(warnings_of({{"znear", 0.1}}, 2).empty());
   const std::vector<std::string> warnings = warnings_of({{"znear", 0.1}, {"aspectRatio", 2}}, 1);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(
-      warnings[0],
-      "camera 0 at node 'eye': the file means it for pictures 2 times as wide as high, and this one is 1 "
-      "times; the height is what stays");
+  EXPECT_EQ(warnings[0],
+            "camera 0 at node 'eye': its aspectRatio is 2 and the picture's is 1; the height of what is seen "
+            "stays, the width does not");
 }
 
 TEST_F(GltfCameraTest, WarnsOfDepthsThatItsFileWouldCutOff) {
@@ -150,24 +172,24 @@ TEST_F(GltfCameraTest, OneOfSeveralScenesIsChosen) {
   gltf.add_node({{"name", "far"}, {"mesh", 0}, {"translation", {0, 0, -8}}});
   gltf.json["scenes"] = {{{"name", "near"}, {"nodes", {0, 1}}}, {{"name", "distant"}, {"nodes", {0, 2}}}};
   const auto depth = [&](const NameOrIndex& scene) {
-    return load({.scene = scene}).triangles.at(0).position[0].z;
+    return load(of_scene(scene)).triangles.at(0).position[0].z;
   };
   EXPECT_EQ(depth({}), 0);
   EXPECT_EQ(depth({"distant", {}}), -8);
   EXPECT_EQ(depth({"", 1}), -8);
-  expect_error({.scene = {"middle", {}}},
+  expect_error(of_scene({"middle", {}}),
                {"key 'gltf_scene' is 'middle', but there is none of this name or index; the file has "
                 "scene 'near', scene 'distant'"});
-  expect_error({.scene = {"", 2}}, {"key 'gltf_scene' is 2, but there is none"});
+  expect_error(of_scene({"", 2}), {"key 'gltf_scene' is 2, but there is none"});
   gltf.json["scenes"][1]["name"] = "near";
-  expect_error({.scene = {"near", {}}}, {"but there are several of this name"});
+  expect_error(of_scene({"near", {}}), {"but there are several of this name"});
   gltf.json.erase("scene");
   expect_warning(
       "the file has 2 scenes and says of none that it is the default; the first is read (key 'gltf_scene' "
       "chooses)");
   gltf.json.erase("scenes");
   gltf.json["nodes"].erase(2);
-  expect_error({.scene = {"", 0}}, {"key 'gltf_scene' is 0, but the file names no scenes"});
+  expect_error(of_scene({"", 0}), {"key 'gltf_scene' is 0, but the file names no scenes"});
 }
 
 }  // namespace

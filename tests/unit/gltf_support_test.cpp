@@ -71,6 +71,16 @@ const std::map<std::string_view, Change>& examples() {
              {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
              {"values", {{"bufferView", 1}}}};
        }},
+      {"buffers: uri",
+       [](GltfBuilder& f) {
+         f.json["buffers"] = {{{"byteLength", f.binary.size()}, {"uri", f.data_uri()}}};
+       }},
+      {"images, samplers, textures",
+       [](GltfBuilder& f) {
+         f.json["images"] = {{{"uri", "a.png"}}};
+         f.json["samplers"] = {nlohmann::json::object()};
+         f.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+       }},
       {"materials: baseColorFactor, metallicFactor, roughnessFactor",
        [](GltfBuilder& f) { material(f)["pbrMetallicRoughness"]["roughnessFactor"] = 0.5; }},
       {"materials: emissiveFactor",

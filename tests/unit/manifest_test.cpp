@@ -133,7 +133,7 @@ TEST(Manifest, DurationsReadWell) {
 }
 
 TEST(Manifest, ScenesWithoutLightAreWarnedOf) {
-  LoadedScene loaded{"dark.glb", {}, one_triangle(), ""};
+  LoadedScene loaded{"dark.glb", View(), one_triangle(), ""};
   RunConfig config;
   EXPECT_NE(light_warning(loaded, config).find("dark.glb: the scene has no light"), std::string::npos);
   config.render.environment = {0, 0, 0.1};

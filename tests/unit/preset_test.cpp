@@ -44,6 +44,9 @@ TEST_F(Presets, AreOverriddenByTheConfigAndItsSweep) {
 
 TEST_F(Presets, ErrorsNameTheFileAndWhatIsWrong) {
   EXPECT_NE(error(R"("preset": "none.json")").find("none.json\": there is no such file"), std::string::npos);
+  EXPECT_NE(error(R"("preset": ")" + std::string(300, 'a') + "\"").find("there is no such file"),
+            std::string::npos)
+      << "a name that is longer than any file's";
   write("p.json", R"({"rl": {"shrinkag": 1}})");
   EXPECT_NE(error(R"("preset": "p.json")").find("'rl.shrinkag'"), std::string::npos);
   EXPECT_NE(error(R"("preset": "p.json")").find("p.json"), std::string::npos);
