@@ -44,11 +44,18 @@ fs::path resolve(const Source& source, const std::string& buffer, const std::str
   return file;
 }
 
-std::vector<unsigned char> decode_data_uri(const Source& source, const std::string& buffer,
-                                           const std::string& uri) {
-  source.check(tinygltf::IsDataURI(uri),
-               "{}: the data URI begins with '{}'; data:application/octet-stream;base64, would be right",
-               buffer, uri.substr(0, std::min<std::size_t>(uri.find(','), 60)));
+// tinygltf decodes none but these media types. The bytes of others are no different.
+std::vector<unsigned char> decode_data_uri(Source& source, const std::string& buffer, std::string uri) {
+  constexpr std::string_view kRight = "data:application/octet-stream;base64,", kEnd = ";base64,";
+  const std::string begin = uri.substr(0, std::min<std::size_t>(uri.find(','), 60));
+  if (!tinygltf::IsDataURI(uri)) {
+    const std::size_t end = uri.find(kEnd);
+    source.check(end != std::string::npos, "{}: the data URI begins with '{}'; {} would be right", buffer,
+                 begin, kRight);
+    source.warn("{}: the data URI begins with '{}', where glTF has {}; its bytes are read all the same",
+                buffer, begin, kRight);
+    uri.replace(0, end + kEnd.size(), kRight);
+  }
   std::vector<unsigned char> bytes;
   std::string mime_type;
   const bool is_decoded = tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false);
@@ -61,7 +68,7 @@ void check_length(const Source& source, const std::string& buffer, std::size_t f
                found);
 }
 
-std::vector<unsigned char> load(const Source& source, const std::string& buffer, const std::string& uri,
+std::vector<unsigned char> load(Source& source, const std::string& buffer, const std::string& uri,
                                 std::size_t size, const fs::path& folder) {
   if (!uri.starts_with("data:")) {
     const fs::path file = resolve(source, buffer, uri, folder);
@@ -94,7 +101,7 @@ void check_files(const Source& source, const nlohmann::json& buffers, const std:
 
 }  // namespace
 
-std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann::json& document,
+std::vector<tinygltf::Buffer> load_buffers(Source& source, const nlohmann::json& document,
                                            const fs::path& folder, FileContent content,
                                            std::size_t max_bytes) {
   const auto array = document.find("buffers");

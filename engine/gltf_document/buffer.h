@@ -13,7 +13,7 @@ namespace qtrace::gltf {
 
 // Each buffer has exactly its declared byteLength. Error where those in files together have more than
 // `max_bytes`.
-std::vector<tinygltf::Buffer> load_buffers(const Source& source, const nlohmann::json& document,
+std::vector<tinygltf::Buffer> load_buffers(Source& source, const nlohmann::json& document,
                                            const std::filesystem::path& folder, FileContent content,
                                            std::size_t max_bytes);
 

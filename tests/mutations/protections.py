@@ -49,7 +49,8 @@ PROTECTIONS = [
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
         "engine/gltf/load_gltf.cpp", "  drop_duplicates(source, scene);\n", ""),)),
     Protection("mirrored nodes turn their triangles round", ("mirrored nodes",), (Edit(
-        "engine/gltf/triangle.cpp", "if (is_mirrored_) std::swap", "if (is_mirrored_ && index > 1u << 30u) std::swap"),)),
+        "engine/gltf/triangle.cpp", "if (is_mirrored(primitive, vertices[0])) std::swap",
+        "if (is_mirrored(primitive, vertices[0]) && index > 1u << 30u) std::swap"),)),
     Protection("sums in double precision", ("AMillionFramesKeepTheMean", "AMillionFramesAfterAFireflyDoNotStall"),
                (Edit("shaders/passes/pixel_sum.glsl", "  sum.r += weighed.r;",
                      "  sum.r = double(float(sum.r) + float(weighed.r));"),), True),

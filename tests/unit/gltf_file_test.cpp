@@ -125,13 +125,25 @@ TEST_F(GltfFileTest, RefusesBuffersShorterThanDeclared) {
 TEST_F(GltfFileTest, RefusesBuffersThatCannotBeRead) {
   expect_uri_error("none.bin", {"buffer 0: 'none.bin'", "there is no such file"});
   expect_uri_error(".", {"buffer 0: '.'", "this is not a regular file"});
-  expect_uri_error("data:audio/wav;base64,AAAA",
-                   {"buffer 0: the data URI begins with 'data:audio/wav;base64'"});
+  expect_uri_error("data:application/octet-stream,AAAA",
+                   {"buffer 0: the data URI begins with 'data:application/octet-stream'"});
+  expect_uri_error("data:,", {"buffer 0: the data URI begins with 'data:'"});
   expect_uri_error("data:application/octet-stream;base64,!",
                    {"buffer 0: the data URI is empty or not base64"});
   gltf.json["buffers"] = {{{"byteLength", 36}}, {{"byteLength", 36}}};
   gltf.json["bufferViews"][0]["buffer"] = 1;
   expect_error({"buffer 1 has no uri; only buffer 0 of a .glb"});
+}
+
+TEST_F(GltfFileTest, DataUrisOfAnyMediaTypeHoldBytes) {
+  for (const std::string type : {"audio/wav", "", "a/b;charset=utf-8"}) {
+    std::string uri = gltf.data_uri();
+    uri.replace(0, uri.find(";base64,"), "data:" + type);
+    const Scene scene = load("scene.gltf", gltf.gltf_with(uri));
+    EXPECT_EQ(scene.triangles.size(), 1U);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_NE(scene.warnings[0].find("buffer 0: the data URI begins with 'data:" + type), std::string::npos);
+  }
 }
 
 TEST_F(GltfFileTest, BuffersThatNothingReadsMayBeMissing) {

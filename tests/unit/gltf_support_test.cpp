@@ -8,6 +8,12 @@
 #include <map>
 
 namespace qtrace {
+namespace gltf {
+
+// googletest names a row by it.
+static void PrintTo(const Support& row, std::ostream* out) { *out << row.name; }
+
+}  // namespace gltf
 namespace {
 
 using gltf::Treatment;
@@ -199,8 +205,6 @@ class GltfSupport : public GltfTest, public ::testing::WithParamInterface<gltf::
 
 TEST_P(GltfSupport, IsAsTheTableSays) {
   const gltf::Support& row = GetParam();
-  if (row.name.find("_compression") != std::string_view::npos)
-    GTEST_SKIP() << "tests/unit/gltf_compression_test.cpp has its files";
   const auto example = examples().find(row.name);
   ASSERT_NE(example, examples().end()) << "no file has " << row.name;
   gltf.add_triangle();
@@ -217,7 +221,16 @@ TEST_P(GltfSupport, IsAsTheTableSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, GltfSupport, ::testing::ValuesIn(gltf::kSupport), [](const auto& row) {
+// All but compressed data, whose files tests/unit/gltf_compression_test.cpp has.
+std::vector<gltf::Support> rows_with_examples() {
+  std::vector<gltf::Support> rows;
+  for (const gltf::Support& row : gltf::kSupport) {
+    if (row.name.find("_compression") == std::string_view::npos) rows.push_back(row);
+  }
+  return rows;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, GltfSupport, ::testing::ValuesIn(rows_with_examples()), [](const auto& row) {
   std::string name;
   for (const char c : row.param.name) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;
