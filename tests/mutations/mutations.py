@@ -69,7 +69,7 @@ MUTATIONS = [
     Mutation("a file's textured emission all over its surface", "engine/gltf/material.cpp", "    material.emission = glm::vec3(0);\n", ""),
     Mutation("a file's orthographic rays from one point", "geometry/camera.glsl", "ndc.y * parameters.film_up.xyz", "0.0 * parameters.film_up.xyz"),
     Mutation("a picture's fit whatever its shape", "engine/scene/cameras.cpp", "std::abs(glm::dot(v, right)) / aspect", "std::abs(glm::dot(v, right))"),
-    Mutation("a picture's primaries taken for others", "experiments/images/exr_picture.cpp", "return std::nullopt;\n  }\n", ""),
+    Mutation("a picture's primaries taken for others", "experiments/images/exr_picture.cpp", "* rgb_to_xyz(file);", "* rgb_to_xyz(kRec709) * (rgb_to_xyz(file) / rgb_to_xyz(file));"),
     Mutation("an array requeued for one of its tasks", "experiments/commands/slurm_scripts.cpp",
              "${task:-$SLURM_JOB_ID}", "$SLURM_JOB_ID"),
     Mutation("pixels scrambled alike", "sampling/sobol.glsl", "uvec4(key.pixel, frame_sequence", "uvec4(0u, frame_sequence"),

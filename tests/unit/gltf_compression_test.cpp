@@ -14,6 +14,7 @@ namespace {
 
 // Two triangles of a square in the plane z = 2, with normals and four vertices.
 const std::vector<float> kPositions{0, 0, 2, 4, 0, 2, 4, 4, 2, 0, 4, 2};
+const std::vector<float> kNormals{0, 0, 1, 0.6F, 0, 0.8F, 0, 0.6F, 0.8F, 0, 0, 1};
 const std::vector<std::uint32_t> kIndices{0, 1, 2, 0, 2, 3};
 
 class GltfCompressionTest : public GltfTest {
@@ -151,14 +152,22 @@ class GltfDracoTest : public GltfCompressionTest {
  protected:
   GltfDracoTest() {
     gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    primitive_["attributes"]["NORMAL"] = gltf.add_floats("VEC3", kNormals);
+    primitive() = primitive_;
+    plain_ = load();
     draco::TriangleSoupMeshBuilder builder;
     builder.Start(2);
-    const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int normals = builder.AddAttribute(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32);
+    const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     for (std::uint32_t face = 0; face < 2; ++face) {
-      const auto corner = [&](std::size_t i) {
-        return kPositions.data() + std::size_t{3} * kIndices[3 * face + i];
+      const auto set = [&](int attribute, const std::vector<float>& values) {
+        const auto corner = [&](std::size_t i) {
+          return values.data() + std::size_t{3} * kIndices[3 * face + i];
+        };
+        builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(face), corner(0), corner(1), corner(2));
       };
-      builder.SetAttributeValuesForFace(id, draco::FaceIndex(face), corner(0), corner(1), corner(2));
+      set(normals, kNormals);
+      set(positions, kPositions);
     }
     const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
     draco::Encoder encoder;
@@ -171,7 +180,7 @@ class GltfDracoTest : public GltfCompressionTest {
         {{"buffer", 0}, {"byteOffset", append(bytes_)}, {"byteLength", bytes_.size()}});
     for (nlohmann::json& accessor : gltf.json["accessors"]) accessor.erase("bufferView");
     primitive() = primitive_;
-    extension() = {{"bufferView", 2}, {"attributes", {{"POSITION", 0}}}};
+    extension() = {{"bufferView", 3}, {"attributes", {{"NORMAL", 0}, {"POSITION", 1}}}};
   }
   nlohmann::json& primitive() { return gltf.json["meshes"][0]["primitives"][0]; }
   nlohmann::json& extension() { return primitive()["extensions"]["KHR_draco_mesh_compression"]; }
@@ -183,23 +192,24 @@ TEST_F(GltfDracoTest, StandsForWhatWasCompressed) { expect_same_as_plain(); }
 
 TEST_F(GltfDracoTest, RefusesWhatCannotBeDecoded) {
   const GltfBuilder good = gltf;
-  gltf.json["bufferViews"][2]["byteLength"] = bytes_.size() / 2;
+  gltf.json["bufferViews"][3]["byteLength"] = bytes_.size() / 2;
   expect_error({"mesh 'shape' primitive 0 KHR_draco_mesh_compression: its ", "bytes cannot be decoded: "});
   gltf = good;
   extension()["attributes"]["POSITION"] = 7;
   expect_error(
       {"mesh 'shape' primitive 0 KHR_draco_mesh_compression: POSITION is attribute 7, which the compressed "
-       "data does "
-       "not have"});
-  extension()["attributes"] = {{"POSITION", 0}, {"NORMAL", 0}};
+       "data does not have"});
+  gltf = good;
+  extension()["attributes"]["TEXCOORD_0"] = 0;
   expect_error(
-      {"mesh 'shape' primitive 0: NORMAL is compressed with KHR_draco_mesh_compression and no attribute"});
+      {"mesh 'shape' primitive 0: TEXCOORD_0 is compressed with KHR_draco_mesh_compression and no "
+       "attribute"});
   gltf = good;
   primitive()["mode"] = kStrip;
   expect_error({"has mode 5; 4, triangles, would be right"});
   gltf = good;
-  extension()["bufferView"] = 3;
-  expect_error({"extensions.KHR_draco_mesh_compression.bufferView is 3; an index below 3"});
+  extension()["bufferView"] = 4;
+  expect_error({"extensions.KHR_draco_mesh_compression.bufferView is 4; an index below 4"});
   extension().erase("bufferView");
   expect_error({"extensions.KHR_draco_mesh_compression.bufferView is missing"});
 }
