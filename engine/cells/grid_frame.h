@@ -1,7 +1,7 @@
 // A regular grid of boxes, and the pieces of triangles that lie in them.
 #pragma once
 
-#include "engine/cells/clip.h"
+#include "engine/cells/corner.h"
 #include "engine/scene/scene.h"
 
 #include <glm/vec3.hpp>

@@ -1,30 +1,16 @@
 #include "engine/gltf/prism.h"
 
+#include "engine/scene/clip.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <utility>
 
 namespace qtrace::gltf {
-namespace {
-
-// The part of it where `height`, which is linear, is not below 0 (Sutherland and Hodgman 1974).
-template <class Height>
-Polygon clipped(const Polygon& polygon, Height height) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner& a = polygon[i];
-    const Corner& b = polygon[(i + 1) % polygon.size()];
-    const double at_a = height(a.position), at_b = height(b.position);
-    if (at_a >= 0) result.push_back(a);
-    if ((at_a < 0) == (at_b < 0)) continue;
-    const double t = at_a / (at_a - at_b);
-    result.push_back({glm::mix(a.position, b.position, t), glm::mix(a.barycentric, b.barycentric, t)});
-  }
-  return result;
+Corner mixed(const Corner& a, const Corner& b, double x) {
+  return {glm::mix(a.position, b.position, x), glm::mix(a.barycentric, b.barycentric, x)};
 }
-
-}  // namespace
 
 Polygon polygon_of(const Triangle& triangle) {
   return {{triangle.position[0], {1, 0, 0}},
@@ -62,16 +48,16 @@ double Prism::within(std::size_t side, const glm::dvec3& p) const {
 
 Polygon Prism::inside(Polygon polygon) const {
   for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
+    polygon = clip(polygon, [&](const Corner& corner) { return within(i, corner.position); });
   }
   return polygon;
 }
 
 void Prism::add_outside(Polygon polygon, double width, std::vector<Polygon>& parts) const {
   for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
-    Polygon part = clipped(polygon, [&](const glm::dvec3& p) { return -within(i, p); });
+    Polygon part = clip(polygon, [&](const Corner& corner) { return -within(i, corner.position); });
     if (is_wide(part, width)) parts.push_back(std::move(part));
-    polygon = clipped(polygon, [&](const glm::dvec3& p) { return within(i, p); });
+    polygon = clip(polygon, [&](const Corner& corner) { return within(i, corner.position); });
   }
 }
 

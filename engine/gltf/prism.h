@@ -16,6 +16,7 @@ struct Corner {
   glm::dvec3 position;
   glm::dvec3 barycentric;
 };
+Corner mixed(const Corner& a, const Corner& b, double x);  // at x of the way from a to b
 // Flat and convex.
 using Polygon = std::vector<Corner>;
 

@@ -1,6 +1,7 @@
 #include "engine/scene/cameras.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/clip.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -22,20 +23,8 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-// The part of a polygon where `inside` is at least 0, which must be linear (Sutherland and Hodgman 1974).
-template <class Inside>
-Polygon clipped(const Polygon& polygon, Inside inside) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner& a = polygon[i];
-    const Corner& b = polygon[(i + 1) % polygon.size()];
-    const double at_a = inside(a), at_b = inside(b);
-    if (at_a >= 0) result.push_back(a);
-    if ((at_a < 0) == (at_b < 0)) continue;
-    const double t = at_a / (at_a - at_b);
-    result.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.depth + t * (b.depth - a.depth)});
-  }
-  return result;
+Corner mixed(const Corner& a, const Corner& b, double x) {
+  return {a.x + x * (b.x - a.x), a.y + x * (b.y - a.y), a.depth + x * (b.depth - a.depth)};
 }
 
 class Picture {
@@ -59,12 +48,12 @@ class Picture {
     }
     if (least > far || most <= near) return false;
     const auto border = [this](const Corner& c) { return is_flat_ ? 1.0 : c.depth; };
-    polygon = clipped(polygon, [&](const Corner& c) { return c.depth - near; });
-    polygon = clipped(polygon, [&](const Corner& c) { return far - c.depth; });
-    polygon = clipped(polygon, [&](const Corner& c) { return border(c) - c.x; });
-    polygon = clipped(polygon, [&](const Corner& c) { return border(c) + c.x; });
-    polygon = clipped(polygon, [&](const Corner& c) { return border(c) - c.y; });
-    polygon = clipped(polygon, [&](const Corner& c) { return border(c) + c.y; });
+    polygon = clip(polygon, [&](const Corner& c) { return c.depth - near; });
+    polygon = clip(polygon, [&](const Corner& c) { return far - c.depth; });
+    polygon = clip(polygon, [&](const Corner& c) { return border(c) - c.x; });
+    polygon = clip(polygon, [&](const Corner& c) { return border(c) + c.x; });
+    polygon = clip(polygon, [&](const Corner& c) { return border(c) - c.y; });
+    polygon = clip(polygon, [&](const Corner& c) { return border(c) + c.y; });
     return polygon.size() >= 3;
   }
 
