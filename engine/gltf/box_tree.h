@@ -16,8 +16,8 @@
 namespace qtrace::gltf {
 
 struct Box {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()};
-  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+  glm::vec3 low{std::numeric_limits<float>::infinity()};
+  glm::vec3 high{-std::numeric_limits<float>::infinity()};
 
   void add(const Box& other) {
     low = glm::min(low, other.low);
@@ -30,9 +30,9 @@ struct Box {
 };
 
 // Of a triangle, and `margin` around it.
-inline Box box_of(const Triangle& triangle, double margin) {
+inline Box box_of(const Triangle& triangle, float margin) {
   Box box;
-  for (const glm::vec3& p : triangle.position) box.add({glm::dvec3(p) - margin, glm::dvec3(p) + margin});
+  for (const glm::vec3& p : triangle.position) box.add({p - margin, p + margin});
   return box;
 }
 
@@ -47,7 +47,16 @@ class BoxTree {
   // Calls `found` with the index of each box that overlaps `wanted`.
   template <class Found>
   void visit(const Box& wanted, Found found) const {
-    if (!nodes_.empty()) visit(0, wanted, found);
+    any(wanted, [&found](std::size_t i) {
+      found(i);
+      return false;
+    });
+  }
+
+  // Whether `is_wanted` holds for the index of one that does; the others are left out then.
+  template <class IsWanted>
+  bool any(const Box& wanted, IsWanted is_wanted) const {
+    return !nodes_.empty() && any(0, wanted, is_wanted);
   }
 
  private:
@@ -69,7 +78,7 @@ class BoxTree {
       nodes_[index].count = last - first;
       return index;
     }
-    const glm::dvec3 size = box.high - box.low;
+    const glm::vec3 size = box.high - box.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = (first + last) / 2;
     const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -82,18 +91,15 @@ class BoxTree {
     return index;
   }
 
-  template <class Found>
-  void visit(std::size_t index, const Box& wanted, Found& found) const {
+  template <class IsWanted>
+  bool any(std::size_t index, const Box& wanted, IsWanted& is_wanted) const {
     const Node& node = nodes_[index];
-    if (!node.box.overlaps(wanted)) return;
-    if (node.count == 0) {
-      visit(index + 1, wanted, found);
-      visit(node.right, wanted, found);
-      return;
-    }
+    if (!node.box.overlaps(wanted)) return false;
+    if (node.count == 0) return any(index + 1, wanted, is_wanted) || any(node.right, wanted, is_wanted);
     for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-      if (boxes_[order_[i]].overlaps(wanted)) found(order_[i]);
+      if (boxes_[order_[i]].overlaps(wanted) && is_wanted(order_[i])) return true;
     }
+    return false;
   }
 
   std::vector<Box> boxes_;

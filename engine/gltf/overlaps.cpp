@@ -1,6 +1,7 @@
 #include "engine/gltf/overlaps.h"
 
 #include "engine/gltf/box_tree.h"
+#include "engine/gltf/parts.h"
 #include "engine/gltf/prism.h"
 
 #include <glm/common.hpp>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,16 +18,12 @@ namespace qtrace::gltf {
 namespace {
 
 // Sixteen times the rounding of the scene's largest coordinate.
-constexpr double kRounding = 16 * 0x1p-24;
+constexpr float kRounding = 16 * 0x1p-24F;
 // An overlap or a rest that is no wider than so many times that is no surface.
 constexpr double kSliver = 4;
 // What does not emit overlaps where it shares so much of the smaller part. Bodies that touch, as a pot on a
 // book, often share a few triangles' edges in one plane, and no picture shows which of them is met there.
 constexpr double kLeastShare = 0.01;
-
-bool emits(const Scene& scene, std::uint32_t triangle) {
-  return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
-}
 
 // Both emit: the same, to the same sides.
 bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
@@ -45,23 +40,20 @@ struct Overlap {
   double area;
 };
 
-double rounding_of(const Scene& scene) {
-  double largest = 0;
+float rounding_of(const Scene& scene) {
+  float largest = 0;
   for (const Triangle& triangle : scene.triangles) {
     for (const glm::vec3& p : triangle.position) {
-      largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
   }
   return kRounding * largest;
 }
 
-// What an object has of one material, which wins or loses as a whole.
-using Part = std::pair<std::uint32_t, std::uint32_t>;  // object, material
-using Pair = std::pair<Part, Part>;                    // the loser, the winner
-
 class Overlaps {
  public:
-  Overlaps(Source& source, Scene& scene) : source_(source), scene_(scene), rounding_(rounding_of(scene)) {}
+  Overlaps(Source& source, Scene& scene)
+      : source_(source), scene_(scene), rounding_(rounding_of(scene)), parts_(scene, rounding_) {}
 
   void cut() {
     find();
@@ -74,56 +66,36 @@ class Overlaps {
   }
 
  private:
-  const Triangle& triangle(std::uint32_t i) const { return scene_.triangles[i]; }
-  Part part_of(std::uint32_t i) const { return {triangle(i).object, triangle(i).material}; }
-  std::string name_of(std::uint32_t object) const {
-    return label("object", object, scene_.objects[object].name);
-  }
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;  // of parts: the loser, the winner
 
-  // Where all that does not emit has one material, emitters are all that can overlap with something else.
-  std::vector<std::uint32_t> candidates() const {
-    std::vector<std::uint32_t> emitters;
-    std::set<std::uint32_t> others;
-    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-      if (emits(scene_, i)) {
-        emitters.push_back(i);
-      } else if (others.size() < 2) {
-        others.insert(triangle(i).material);
-      }
-    }
-    if (others.size() < 2) return emitters;
-    std::vector<std::uint32_t> all(scene_.triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
+  const Triangle& triangle(std::uint32_t i) const { return scene_.triangles[i]; }
+  std::string name_of(const Part& part) const {
+    return label("object", part.object, scene_.objects[part.object].name);
   }
 
   void find() {
-    const std::vector<std::uint32_t> found_in = candidates();
-    if (found_in.empty()) return;
-    const bool has_all = found_in.size() == scene_.triangles.size();
-    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) areas_[part_of(i)] += area_of(triangle(i));
+    const std::vector<std::uint32_t> candidates = parts_.near_others(scene_, rounding_);
     std::vector<Box> boxes;
-    for (const std::uint32_t i : found_in) boxes.push_back(box_of(triangle(i), rounding_));
-    const BoxTree tree(std::move(boxes));
-    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-      tree.visit(box_of(triangle(i), rounding_), [&](std::size_t found) {
-        const std::uint32_t other = found_in[found];
-        const bool comes_twice = has_all || emits(scene_, i);
-        if (i != other && (!comes_twice || i < other)) look_at(i, other);
+    for (const std::uint32_t i : candidates) boxes.push_back(box_of(triangle(i), rounding_));
+    const BoxTree tree(boxes);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      tree.visit(boxes[i], [&](std::size_t other) {
+        if (i < other) look_at(candidates[i], candidates[other]);
       });
     }
   }
 
   bool may_matter(std::uint32_t a, std::uint32_t b) const {
-    if (emits(scene_, a) || emits(scene_, b)) return true;
-    return triangle(a).material != triangle(b).material &&
+    if (parts_.of(a).emits || parts_.of(b).emits) return true;
+    return Parts::differ(parts_.of(a), parts_.of(b)) &&
            glm::dot(area_vector(triangle(a).position), area_vector(triangle(b).position)) > 0;
   }
 
   bool wins(std::uint32_t a, std::uint32_t b) const {
-    if (emits(scene_, a) != emits(scene_, b)) return emits(scene_, a);
-    if (emits(scene_, a)) return a < b;
-    return std::pair(areas_.at(part_of(a)), part_of(a)) < std::pair(areas_.at(part_of(b)), part_of(b));
+    const Part &part_a = parts_.of(a), &part_b = parts_.of(b);
+    if (part_a.emits != part_b.emits) return part_a.emits;
+    if (part_a.emits) return a < b;
+    return std::pair(part_a.area, parts_.index_of(a)) < std::pair(part_b.area, parts_.index_of(b));
   }
 
   void look_at(std::uint32_t a, std::uint32_t b) {
@@ -131,17 +103,21 @@ class Overlaps {
     const std::uint32_t winner = wins(a, b) ? a : b, loser = winner == a ? b : a;
     const Prism prism(triangle(winner));
     const Polygon shared = prism.inside(polygon_of(triangle(loser)));
-    const bool in_plane = std::ranges::all_of(
-        shared, [&](const Corner& corner) { return std::abs(prism.height(corner.position)) <= rounding_; });
-    if (!in_plane || !is_wide(shared, kSliver * rounding_)) return;
-    source_.check(!emits(scene_, loser) || emit_alike(scene_, triangle(winner), triangle(loser)),
+    const auto in_plane = [&](const Corner& corner) {
+      return std::abs(prism.height(corner.position)) <= static_cast<double>(rounding_);
+    };
+    if (!std::ranges::all_of(shared, in_plane)) return;
+    if (!is_wide(shared, kSliver * static_cast<double>(rounding_))) return;
+    source_.check(!parts_.of(loser).emits || emit_alike(scene_, triangle(winner), triangle(loser)),
                   "{} and {} lie in one plane and overlap, and do not emit alike; only one of them would be "
                   "right there",
-                  name_of(triangle(winner).object), name_of(triangle(loser).object));
+                  name_of(parts_.of(winner)), name_of(parts_.of(loser)));
     overlaps_.push_back({loser, winner, area(shared)});
   }
 
-  Pair pair_of(const Overlap& overlap) const { return {part_of(overlap.loser), part_of(overlap.winner)}; }
+  Pair pair_of(const Overlap& overlap) const {
+    return {parts_.index_of(overlap.loser), parts_.index_of(overlap.winner)};
+  }
 
   std::map<Pair, double> shared_areas() const {
     std::map<Pair, double> areas;
@@ -149,31 +125,28 @@ class Overlaps {
     return areas;
   }
 
-  bool is_lamp(const Part& part) const { return scene_.materials[part.second].emission != glm::vec3(0.0F); }
-
   void forget_touches() {
     const std::map<Pair, double> shared = shared_areas();
     std::erase_if(overlaps_, [&](const Overlap& overlap) {
-      const Pair pair = pair_of(overlap);
-      return !is_lamp(pair.second) &&
-             shared.at(pair) < kLeastShare * std::min(areas_.at(pair.first), areas_.at(pair.second));
+      const Part &loser = parts_.of(overlap.loser), &winner = parts_.of(overlap.winner);
+      return !winner.emits && shared.at(pair_of(overlap)) < kLeastShare * std::min(loser.area, winner.area);
     });
   }
 
-  const char* reason(const Part& loser, const Part& winner) const {
-    if (is_lamp(winner)) return is_lamp(loser) ? "emits the same and comes first" : "emits";
-    return areas_.at(winner) < areas_.at(loser) ? "is smaller" : "comes first in the file";
+  static const char* reason(const Part& loser, const Part& winner) {
+    if (winner.emits) return loser.emits ? "emits the same and comes first" : "emits";
+    return winner.area < loser.area ? "is smaller" : "comes first in the file";
   }
 
   // One warning for each pair of parts.
   void warn() {
     for (const auto& [pair, shared] : shared_areas()) {
-      const auto& [loser, winner] = pair;
+      const Part &loser = parts_.all()[pair.first], &winner = parts_.all()[pair.second];
       source_.warn(
           "{} ({}) and {} ({}) share an area of {:.4g} in one plane; only the latter is seen there, because "
           "it {}",
-          name_of(loser.first), scene_.materials[loser.second].name, name_of(winner.first),
-          scene_.materials[winner.second].name, shared, reason(loser, winner));
+          name_of(loser), scene_.materials[loser.material].name, name_of(winner),
+          scene_.materials[winner.material].name, shared, reason(loser, winner));
     }
   }
 
@@ -208,7 +181,7 @@ class Overlaps {
   std::vector<Polygon> without(const std::vector<Polygon>& parts, std::uint32_t winner) const {
     const Prism prism(scene_.triangles[winner]);
     std::vector<Polygon> rest;
-    for (const Polygon& part : parts) prism.add_outside(part, rounding_, rest);
+    for (const Polygon& part : parts) prism.add_outside(part, static_cast<double>(rounding_), rest);
     return rest;
   }
 
@@ -229,8 +202,8 @@ class Overlaps {
 
   Source& source_;
   Scene& scene_;
-  double rounding_;
-  std::map<Part, double> areas_;
+  float rounding_;
+  Parts parts_;
   std::vector<Overlap> overlaps_;
 };
 

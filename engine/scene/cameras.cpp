@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,15 +39,14 @@ class Picture {
   }
 
   bool shows(const Triangle& triangle, double near, double far) const {
-    Polygon polygon;
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const glm::vec3& position : triangle.position) {
-      const glm::dvec4 p = camera_from_world_ * glm::dvec4(glm::dvec3(position), 1);
-      polygon.push_back({p.x / half_width_, p.y / half_height_, -p.z});
-      least = std::min(least, -p.z);
-      most = std::max(most, -p.z);
+    std::array<Corner, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec4 p = camera_from_world_ * glm::dvec4(glm::dvec3(triangle.position[i]), 1);
+      corners[i] = {p.x / half_width_, p.y / half_height_, -p.z};
     }
-    if (least > far || most <= near) return false;
+    const auto [least, most] = std::ranges::minmax(corners, {}, &Corner::depth);
+    if (least.depth > far || most.depth <= near) return false;
+    Polygon polygon(corners.begin(), corners.end());
     const auto border = [this](const Corner& c) { return is_flat_ ? 1.0 : c.depth; };
     polygon = clip(polygon, [&](const Corner& c) { return c.depth - near; });
     polygon = clip(polygon, [&](const Corner& c) { return far - c.depth; });

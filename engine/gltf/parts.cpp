@@ -1,0 +1,45 @@
+#include "engine/gltf/parts.h"
+
+#include <map>
+#include <utility>
+
+namespace qtrace::gltf {
+
+Parts::Parts(const Scene& scene, float margin) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> indices;
+  part_of_.reserve(scene.triangles.size());
+  std::uint32_t index = 0;
+  for (const Triangle& triangle : scene.triangles) {
+    const bool goes_on = !parts_.empty() && parts_[index].object == triangle.object &&
+                         parts_[index].material == triangle.material;
+    if (!goes_on) {
+      const auto next = static_cast<std::uint32_t>(parts_.size());
+      const auto [place, is_new] = indices.try_emplace({triangle.object, triangle.material}, next);
+      index = place->second;
+      if (is_new) {
+        const bool emits = scene.materials[triangle.material].emission != glm::vec3(0.0F);
+        parts_.push_back({triangle.object, triangle.material, emits, 0, {}});
+      }
+    }
+    parts_[index].area += area_of(triangle);
+    parts_[index].box.add(box_of(triangle, margin));
+    part_of_.push_back(index);
+  }
+}
+
+std::vector<std::uint32_t> Parts::near_others(const Scene& scene, float margin) const {
+  std::vector<Box> boxes;
+  for (const Part& part : parts_) boxes.push_back(part.box);
+  const BoxTree tree(std::move(boxes));
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < part_of_.size(); ++i) {
+    const Part& own = of(i);
+    const auto differs = [&](std::size_t other) {
+      return other != part_of_[i] && differ(own, parts_[other]);
+    };
+    if (own.emits || tree.any(box_of(scene.triangles[i], margin), differs)) found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace qtrace::gltf

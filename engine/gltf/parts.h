@@ -1,0 +1,42 @@
+// What each object has of one material: the surfaces that are seen, or cut, as a whole.
+#pragma once
+
+#include "engine/gltf/box_tree.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace qtrace::gltf {
+
+struct Part {
+  std::uint32_t object = 0;
+  std::uint32_t material = 0;
+  bool emits = false;
+  double area = 0;
+  Box box;  // with the margin around it
+};
+
+class Parts {
+ public:
+  // `margin`: around all boxes.
+  Parts(const Scene& scene, float margin);
+
+  // In the order in which their first triangles stand in the scene.
+  const std::vector<Part>& all() const { return parts_; }
+  std::uint32_t index_of(std::uint32_t triangle) const { return part_of_[triangle]; }
+  const Part& of(std::uint32_t triangle) const { return parts_[part_of_[triangle]]; }
+
+  // Whether the order of two surfaces in one plane would show.
+  static bool differ(const Part& a, const Part& b) { return a.emits || b.emits || a.material != b.material; }
+
+  // The triangles that emit, or come into the box of a part that differs from theirs: no others can overlap
+  // with one that does.
+  std::vector<std::uint32_t> near_others(const Scene& scene, float margin) const;
+
+ private:
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> part_of_;  // by triangle
+};
+
+}  // namespace qtrace::gltf
