@@ -46,7 +46,8 @@ std::vector<Duplicate> find_duplicates(const Scene& scene) {
     if (i == 0 || keys[i].first != keys[i - 1].first) kept.clear();
     const std::uint32_t triangle = keys[i].second;
     const auto original = std::ranges::find_if(kept, [&](std::uint32_t other) {
-      return sorted_corners(triangles[other]) == sorted_corners(triangles[triangle]);
+      return sorted_corners(triangles[other]) == sorted_corners(triangles[triangle]) &&
+             glm::dot(area_vector(triangles[other].position), area_vector(triangles[triangle].position)) > 0;
     });
     if (original == kept.end()) {
       kept.push_back(triangle);
@@ -61,9 +62,7 @@ std::vector<Duplicate> find_duplicates(const Scene& scene) {
 bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
   const Material& first = scene.materials[a.material];
   const Material& second = scene.materials[b.material];
-  if (first.emission != second.emission) return false;
-  if (first.double_sided != second.double_sided) return false;
-  return first.double_sided || glm::dot(area_vector(a.position), area_vector(b.position)) > 0;
+  return first.emission == second.emission && first.double_sided == second.double_sided;
 }
 
 std::string triangle_label(const Scene& scene, std::uint32_t index) {

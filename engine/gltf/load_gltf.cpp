@@ -23,10 +23,10 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   std::vector<PlacedNode> nodes = with_instances(source, place_nodes(source, view.scene), limits.primitives);
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
-  add_objects(source, nodes, scene);
+  const float extent = add_objects(source, nodes, scene);
   add_camera(source, nodes, view, scene);
   drop_duplicates(source, scene);
-  cut_overlaps(source, scene);
+  cut_overlaps(source, scene, extent, limits.triangles);
   scene.warnings = std::move(source.warnings);
   if (source.more_warnings > 0) {
     scene.warnings.push_back(fmt::format("{} more warnings are left out", source.more_warnings));

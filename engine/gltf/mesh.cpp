@@ -2,6 +2,7 @@
 
 #include "engine/gltf/triangle.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -28,6 +29,7 @@ class ObjectBuilder {
   ObjectBuilder(Source& source, Scene& scene) : source_(source), scene_(scene) {}
 
   void add(const PlacedNode& node, const NodeTransforms& transforms);
+  float extent() const { return extent_; }
 
  private:
   std::string object_name(const PlacedNode& node) const;
@@ -40,6 +42,7 @@ class ObjectBuilder {
   Source& source_;
   Scene& scene_;
   std::optional<std::uint32_t> default_material_;
+  float extent_ = 0;
 };
 
 std::string ObjectBuilder::object_name(const PlacedNode& node) const {
@@ -124,6 +127,7 @@ void ObjectBuilder::add(const PlacedNode& node, const NodeTransforms& transforms
     add_primitive(primitive, placer);
   }
   warn_of_losses(placer.losses(), place);
+  extent_ = std::max(extent_, placer.extent());
   object.has_uv = some_mapped && !some_unmapped;
   finish(std::move(object), place, some_mapped && some_unmapped);
 }
@@ -150,13 +154,14 @@ std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>&
   return total.triangles;
 }
 
-void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene) {
+float add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene) {
   ObjectBuilder builder(source, scene);
   const NodeTransforms transforms(source, nodes);
   for (const PlacedNode& node : nodes) {
     if (node.mesh >= 0) builder.add(node, transforms);
   }
   if (scene.triangles.empty()) source.warn("the scene has no triangles; nothing but the environment is seen");
+  return builder.extent();
 }
 
 }  // namespace qtrace::gltf

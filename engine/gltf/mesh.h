@@ -14,7 +14,8 @@ std::size_t count_triangles(const Source& source, const std::vector<PlacedNode>&
                             const SceneLimits& limits);
 
 // Fills scene.triangles and scene.objects, and appends glTF's default material where one is needed.
-// Warnings name the primitives, triangles and normals that cannot be used.
-void add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene);
+// Warnings name the primitives, triangles and normals that cannot be used. Returns the largest coordinate of
+// a position before its node moved it, which says how exactly the file has it.
+float add_objects(Source& source, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 }  // namespace qtrace::gltf

@@ -4,14 +4,22 @@
 #include "engine/gltf_document/source.h"
 #include "engine/scene/scene.h"
 
+#include <cstddef>
+
 namespace qtrace::gltf {
 
-// Which of two surfaces in one plane a ray meets is a matter of rounding. Half of a lamp's light is lost so,
-// and what light samples find differs from what paths find. So what emits wins, and of two that do not, with
-// different materials and to the same side, the smaller one, as a rug on a floor: the other is cut out there,
-// whatever their order. What emits alike counts once. A warning names both objects, and the area. Error where
-// two overlap that emit, and not alike. Two surfaces are in one plane where they lie apart by no more than
-// the rounding of a hit. Scenes without this stay as they are, to the bit; so do bodies that merely touch.
-void cut_overlaps(Source& source, Scene& scene);
+// Which of two surfaces in one plane a ray meets is a matter of rounding: half of a lamp's light is lost so,
+// and light samples find something else than paths. So one of them is seen, whatever their order, and the
+// other is cut out there: what emits wins, and of two that do not, with different materials, the one that
+// lies more wholly on the other, as a rug on a floor. What emits alike counts once. Two that face opposite
+// sides and cover each other, as the front and the back of a leaf, are moved apart by the rounding: each is
+// seen from the side that it faces. A warning names both objects, and the area. Solids that merely touch stay
+// as they are. Error where two lamps overlap that do not emit alike, or where more than `max_triangles` would
+// be left.
+//
+// In one plane means apart by no more than the rounding of a hit. `extent` is the largest coordinate that
+// positions had before nodes moved them: it rounded them, too. Scenes without such surfaces stay as they are,
+// to the bit.
+void cut_overlaps(Source& source, Scene& scene, float extent, std::size_t max_triangles);
 
 }  // namespace qtrace::gltf

@@ -1,11 +1,30 @@
 #include "engine/gltf/parts.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 namespace qtrace::gltf {
+namespace {
+
+// Of each material, the first one that looks the same.
+std::vector<std::uint32_t> looks_of(const std::vector<Material>& materials) {
+  std::vector<Material> nameless = materials;
+  for (Material& material : nameless) {
+    material.name.clear();
+    if (material.emission == glm::vec3(0.0F)) material.double_sided = false;  // of no consequence then
+  }
+  std::vector<std::uint32_t> looks;
+  for (const Material& material : nameless) {
+    looks.push_back(static_cast<std::uint32_t>(std::ranges::find(nameless, material) - nameless.begin()));
+  }
+  return looks;
+}
+
+}  // namespace
 
 Parts::Parts(const Scene& scene, float margin) {
+  const std::vector<std::uint32_t> looks = looks_of(scene.materials);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> indices;
   part_of_.reserve(scene.triangles.size());
   std::uint32_t index = 0;
@@ -18,7 +37,7 @@ Parts::Parts(const Scene& scene, float margin) {
       index = place->second;
       if (is_new) {
         const bool emits = scene.materials[triangle.material].emission != glm::vec3(0.0F);
-        parts_.push_back({triangle.object, triangle.material, emits, 0, {}});
+        parts_.push_back({triangle.object, triangle.material, looks[triangle.material], emits, 0, {}});
       }
     }
     parts_[index].area += area_of(triangle);

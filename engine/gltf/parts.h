@@ -12,6 +12,7 @@ namespace qtrace::gltf {
 struct Part {
   std::uint32_t object = 0;
   std::uint32_t material = 0;
+  std::uint32_t look = 0;  // the first material that differs from its own in no more than its name
   bool emits = false;
   double area = 0;
   Box box;  // with the margin around it
@@ -28,7 +29,7 @@ class Parts {
   const Part& of(std::uint32_t triangle) const { return parts_[part_of_[triangle]]; }
 
   // Whether the order of two surfaces in one plane would show.
-  static bool differ(const Part& a, const Part& b) { return a.emits || b.emits || a.material != b.material; }
+  static bool differ(const Part& a, const Part& b) { return a.emits || b.emits || a.look != b.look; }
 
   // The triangles that emit, or come into the box of a part that differs from theirs: no others can overlap
   // with one that does.

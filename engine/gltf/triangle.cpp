@@ -72,7 +72,7 @@ void TrianglePlacer::note_flat(const Primitive& primitive, std::size_t index) {
   ++losses_.flat_triangles;
 }
 
-glm::vec3 TrianglePlacer::world_position(const Primitive& primitive, std::uint32_t vertex) const {
+glm::vec3 TrianglePlacer::world_position(const Primitive& primitive, std::uint32_t vertex) {
   const glm::dvec3 world(pose_.to_world(primitive, vertex) *
                          glm::dvec4(primitive.position(source_, vertex), 1.0));
   const glm::dvec3 size = glm::abs(world);
@@ -80,6 +80,8 @@ glm::vec3 TrianglePlacer::world_position(const Primitive& primitive, std::uint32
     source_.fail("{}: vertex {} of {} overflows in world space; smaller positions or scales would be right",
                  object_, vertex, primitive.place());
   }
+  const glm::dvec3 unmoved = glm::abs(world - glm::dvec3(pose_.to_world()[3]));
+  extent_ = std::max({extent_, unmoved.x, unmoved.y, unmoved.z});
   return world;
 }
 

@@ -31,10 +31,12 @@ class TrianglePlacer {
   std::optional<Triangle> place(const Primitive& primitive, std::size_t index);
 
   const Losses& losses() const { return losses_; }
+  // The largest coordinate of a position that was turned and scaled as its node is, and not yet moved.
+  float extent() const { return static_cast<float>(extent_); }
 
  private:
   void note_flat(const Primitive& primitive, std::size_t index);
-  glm::vec3 world_position(const Primitive& primitive, std::uint32_t vertex) const;
+  glm::vec3 world_position(const Primitive& primitive, std::uint32_t vertex);
   glm::vec3 world_normal(const Primitive& primitive, std::uint32_t vertex, const glm::dvec3& face_normal);
   bool is_mirrored(const Primitive& primitive, std::uint32_t vertex) const;
 
@@ -44,6 +46,7 @@ class TrianglePlacer {
   glm::dmat3 normal_to_world_;  // of what is rigid, as the next
   bool is_mirrored_;
   Losses losses_;
+  double extent_ = 0;
 };
 
 }  // namespace qtrace::gltf

@@ -23,6 +23,8 @@ struct Material {
   glm::vec3 specular_color{1.0F};  // F0 tint of the dielectric lobe, >= 0
   glm::vec3 emission{0.0F};        // radiance, emissiveFactor * emissiveStrength, >= 0
   bool double_sided = false;       // emission leaves the back face too
+
+  bool operator==(const Material&) const = default;
 };
 
 // Counter-clockwise order seen from the front, also under a mirroring node transform.
