@@ -90,8 +90,11 @@ std::vector<FileCamera> matching(const Source& source, const std::vector<FileCam
     return found;
   };
   if (wanted.index) return those([&](const FileCamera& camera) { return camera.index == *wanted.index; });
-  const auto nodes = those(
-      [&](const FileCamera& camera) { return source.model.nodes[camera.node->index].name == wanted.name; });
+  // A node without a name goes by what messages call it, as "node 3".
+  const auto nodes = those([&](const FileCamera& camera) {
+    const std::string& name = source.model.nodes[camera.node->index].name;
+    return (name.empty() ? node_label(source, camera.node->index) : name) == wanted.name;
+  });
   if (!nodes.empty()) return nodes;
   return those(
       [&](const FileCamera& camera) { return source.model.cameras[camera.index].name == wanted.name; });

@@ -20,11 +20,10 @@ class Instances {
     open(attributes, "TRANSLATION", kPositionLayout, translations_);
     open(attributes, "ROTATION", kRotationLayout, rotations_);
     open(attributes, "SCALE", kPositionLayout, scales_);
-    source.check(count_.has_value(),
-                 "{} has none of TRANSLATION, ROTATION and SCALE; one at least would be right", place_);
   }
 
-  std::size_t count() const { return *count_; }
+  // Without any of the three, all instances stand where the node does: one is as good as many.
+  std::size_t count() const { return count_.value_or(1); }
 
   glm::dmat4 transform(std::size_t i) const {
     glm::dmat4 result(1.0);
@@ -63,9 +62,16 @@ class Instances {
   std::optional<AccessorView> translations_, rotations_, scales_;
 };
 
+// Joints say where a skinned mesh stands; glTF does not say what instances of one are.
+void warn_of_skin(Source& source, const PlacedNode& node) {
+  if (source.model.nodes[node.index].skin < 0) return;
+  source.warn("{}: its mesh has both a skin and instances of {}; all of these stand where the joints are",
+              node_label(source, node.index), kExtension);
+}
+
 }  // namespace
 
-std::vector<PlacedNode> with_instances(const Source& source, const std::vector<PlacedNode>& nodes,
+std::vector<PlacedNode> with_instances(Source& source, const std::vector<PlacedNode>& nodes,
                                        std::size_t most) {
   std::vector<PlacedNode> result;
   result.reserve(nodes.size());
@@ -80,6 +86,7 @@ std::vector<PlacedNode> with_instances(const Source& source, const std::vector<P
     source.check(instances.count() <= rest,
                  "the nodes ask for more than {} instances, which is the most supported", most);
     rest -= instances.count();
+    warn_of_skin(source, node);
     for (std::size_t i = 0; i < instances.count(); ++i) {
       result.push_back({node.index, node.to_world * instances.transform(i), node.mesh, i});
       source.check(

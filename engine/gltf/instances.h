@@ -9,7 +9,7 @@ namespace qtrace::gltf {
 
 // Each node that asks for instances shows its mesh no longer itself, and is followed by one for each of them.
 // Error for attributes of different lengths, and for more than `most` instances.
-std::vector<PlacedNode> with_instances(const Source& source, const std::vector<PlacedNode>& nodes,
+std::vector<PlacedNode> with_instances(Source& source, const std::vector<PlacedNode>& nodes,
                                        std::size_t most);
 
 }  // namespace qtrace::gltf

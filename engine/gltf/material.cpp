@@ -11,12 +11,16 @@ constexpr float kNoLimit = std::numeric_limits<float>::max();
 // Numbers of one material, checked; messages name it.
 class Factors {
  public:
-  Factors(const Source& source, std::string material) : source_(source), material_(std::move(material)) {}
+  Factors(Source& source, std::string material) : source_(source), material_(std::move(material)) {}
 
   float scalar(std::string_view property, double value, float max) const {
-    source_.check(value >= 0 && value <= max, "{}: {} is {}; {} would be right", material_, property, value,
-                  max < kNoLimit ? fmt::format("0 to {}", max) : "0 or more");
-    return static_cast<float>(value);
+    constexpr double kRounding = 1e-5;  // so far beyond the limits, it is clear what was meant
+    const auto most = static_cast<double>(max);
+    source_.check(value >= -kRounding && value <= most + kRounding, "{}: {} is {}; {} would be right",
+                  material_, property, value, max < kNoLimit ? fmt::format("0 to {}", max) : "0 or more");
+    const double meant = std::clamp(value, 0.0, most);
+    if (meant != value) source_.warn("{}: {} is {}; it is read as {}", material_, property, value, meant);
+    return static_cast<float>(meant);
   }
 
   glm::vec3 rgb(std::string_view property, const std::vector<double>& value, float max) const {
@@ -27,7 +31,7 @@ class Factors {
   const std::string& material() const { return material_; }
 
  private:
-  const Source& source_;
+  Source& source_;
   std::string material_;
 };
 

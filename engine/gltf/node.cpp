@@ -1,8 +1,10 @@
 #include "engine/gltf/node.h"
 
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -141,14 +143,23 @@ glm::dmat4 rotation_matrix(Source& source, std::size_t index) {
   return glm::mat4_cast(rotation / length);
 }
 
+glm::dmat4 affine(Source& source, std::size_t index, glm::dmat4 matrix) {
+  constexpr double kRounding = 1e-5;
+  const glm::dvec4 right(0, 0, 0, 1);
+  const glm::dvec4 row = glm::row(matrix, 3);
+  source.check(glm::all(glm::lessThan(glm::abs(row - right), glm::dvec4(kRounding))),
+               "{}: the matrix is not affine; 0 0 0 1 would be right as its last row",
+               node_label(source, index));
+  if (row == right) return matrix;
+  source.warn("{}: the matrix's last row is {} {} {} {}; it is read as 0 0 0 1", node_label(source, index),
+              row.x, row.y, row.z, row.w);
+  return glm::row(matrix, 3, right);
+}
+
 glm::dmat4 local_transform(Source& source, std::size_t index) {
   const tinygltf::Node& node = source.model.nodes[index];
   if (!node.matrix.empty()) {
-    const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-    const bool is_affine = matrix[0][3] == 0 && matrix[1][3] == 0 && matrix[2][3] == 0 && matrix[3][3] == 1;
-    source.check(is_affine, "{}: the matrix is not affine; 0 0 0 1 would be right as its last row",
-                 node_label(source, index));
-    return matrix;
+    return affine(source, index, glm::make_mat4(node.matrix.data()));
   }
   glm::dmat4 transform(1.0);
   if (!node.translation.empty()) {

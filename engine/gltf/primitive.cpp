@@ -27,7 +27,7 @@ Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t p
   place_ = fmt::format("{} primitive {}", label("mesh", mesh_index, mesh.name), primitive_index);
   mode_ = file.mode;
   material_ = file.material;
-  if (!is_surface()) return;
+  if (mode_ < TINYGLTF_MODE_TRIANGLES || !file.attributes.contains("POSITION")) return;
   const auto open = [&](const char* name, const Layout& layout, std::optional<AccessorView>& view) {
     const auto attribute = file.attributes.find(name);
     if (attribute == file.attributes.end()) return;
@@ -36,7 +36,6 @@ Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t p
   open("POSITION", kPositionLayout, positions_);
   open("NORMAL", kNormalLayout, normals_);
   open("TEXCOORD_0", kUvLayout, uv_);
-  source.check(positions_.has_value(), "{} has no POSITION; {} would be right", place_, kPositionLayout.text);
   if (normals_) check_count(source, *normals_);
   if (uv_) check_count(source, *uv_);
   open_targets(source, file, weights);
@@ -108,7 +107,7 @@ std::vector<Primitive::Influence> Primitive::influences(const Source& source, st
   return found;
 }
 
-bool Primitive::is_surface() const { return mode_ >= TINYGLTF_MODE_TRIANGLES; }
+bool Primitive::is_surface() const { return positions_.has_value(); }
 
 std::size_t Primitive::corner_count() const { return indices_ ? indices_->size() : positions_->size(); }
 

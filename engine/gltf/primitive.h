@@ -19,9 +19,14 @@ class Primitive {
   Primitive(const Source& source, std::size_t mesh, std::size_t primitive,
             const std::vector<double>& weights = {});
 
-  bool is_surface() const;  // false for points and lines
+  bool is_surface() const;  // false for points, lines and what has no positions
   bool has_uv() const { return uv_.has_value(); }
   bool has_normals() const { return normals_.has_value(); }
+  // Whether a triangle is there to join two strips, and has no area for that reason.
+  bool joins(const std::array<std::uint32_t, 3>& triangle) const {
+    return mode_ == TINYGLTF_MODE_TRIANGLE_STRIP &&
+           (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]);
+  }
   bool has_joints() const { return !joints_.empty(); }
   int material() const { return material_; }
   int mode() const { return mode_; }

@@ -42,8 +42,9 @@ bool TrianglePlacer::is_mirrored(const Primitive& primitive, std::uint32_t verte
 }
 
 std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::size_t index) {
-  ++losses_.triangles;
   std::array<std::uint32_t, 3> vertices = primitive.triangle(source_, index);
+  if (primitive.joins(vertices)) return std::nullopt;
+  ++losses_.triangles;
   if (is_mirrored(primitive, vertices[0])) std::swap(vertices[1], vertices[2]);
   Triangle triangle{};
   for (std::size_t i = 0; i < 3; ++i) triangle.position[i] = world_position(primitive, vertices[i]);

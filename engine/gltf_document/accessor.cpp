@@ -23,13 +23,29 @@ constexpr Component kJoints[]{{kUnsignedByte, false}, {kUnsignedShort, false}};
 constexpr Component kWeights[]{{kFloat, false}, {kUnsignedByte, true}, {kUnsignedShort, true}};
 constexpr Component kIndex[]{{kUnsignedByte, false}, {kUnsignedShort, false}, {kUnsignedInt, false}};
 
+std::string_view type_name(int type) {
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return "SCALAR";
+    case TINYGLTF_TYPE_VEC2:
+      return "VEC2";
+    case TINYGLTF_TYPE_VEC3:
+      return "VEC3";
+    case TINYGLTF_TYPE_VEC4:
+      return "VEC4";
+    default:
+      return "a matrix";
+  }
+}
+
 void check_layout(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
                   const std::string& role) {
   // That floats are normalized would say nothing.
   const Component found{accessor.componentType, accessor.normalized && accessor.componentType != kFloat};
   const bool fits = accessor.type == layout.type && std::ranges::count(layout.components, found) > 0;
-  source.check(fits, "{} has the wrong type (component type {}{}); {} would be right", role,
-               accessor.componentType, accessor.normalized ? ", normalized" : "", layout.text);
+  source.check(fits, "{} has the wrong type ({} of component type {}{}); {} would be right", role,
+               type_name(accessor.type), accessor.componentType, accessor.normalized ? ", normalized" : "",
+               layout.text);
 }
 
 // Sizes come from the file, so sums may overflow: each check subtracts from what is known to be there.

@@ -1,6 +1,6 @@
 #include "engine/gltf_document/buffer.h"
 
-#include "engine/gltf_document/meshopt.h"
+#include "engine/gltf_document/usage.h"
 
 #include <algorithm>
 #include <charconv>

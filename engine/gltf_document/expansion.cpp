@@ -1,10 +1,11 @@
 #include "engine/gltf_document/expansion.h"
 
+#include "engine/gltf_document/usage.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
-#include <set>
 
 namespace qtrace::gltf {
 namespace {
@@ -28,36 +29,6 @@ std::size_t element_size(const json& accessor) {
                         : type.starts_with("VEC") ? static_cast<std::size_t>(type.back() - '0')
                                                   : 1;
   return n * component_size(accessor);
-}
-
-void add_accessors(const json& attributes, std::set<std::size_t>& used) {
-  for (const auto& item : attributes.items()) {
-    if (item.value().is_number_unsigned()) used.insert(item.value().get<std::size_t>());
-  }
-}
-
-const json& member(const json& object, const char* name) {
-  static const json nothing;
-  const auto found = object.find(name);
-  return found == object.end() ? nothing : *found;
-}
-
-std::set<std::size_t> used_accessors(const json& document) {
-  std::set<std::size_t> used;
-  for (const json& mesh : member(document, "meshes")) {
-    for (const json& primitive : member(mesh, "primitives")) {
-      add_accessors(member(primitive, "attributes"), used);
-      for (const json& target : member(primitive, "targets")) add_accessors(target, used);
-      if (primitive.contains("indices")) used.insert(number(primitive, "indices"));
-    }
-  }
-  for (const json& skin : member(document, "skins")) {
-    if (skin.contains("inverseBindMatrices")) used.insert(number(skin, "inverseBindMatrices"));
-  }
-  for (const json& node : member(document, "nodes")) {
-    add_accessors(member(member(member(node, "extensions"), "EXT_mesh_gpu_instancing"), "attributes"), used);
-  }
-  return used;
 }
 
 // `count` elements of a bufferView from `offset` on, `stride` bytes apart.

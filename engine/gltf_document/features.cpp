@@ -29,12 +29,14 @@ std::string extensions_to_require() {
 
 const json& member(const json& object, std::string_view name) {
   static const json nothing;
+  if (!object.is_object()) return nothing;
   const auto found = object.find(name);
   return found == object.end() ? nothing : *found;
 }
 
 std::string item_label(std::string_view kind, std::size_t index, const json& item) {
-  return label(kind, index, item.value("name", ""));
+  const json& name = member(item, "name");
+  return label(kind, index, name.is_string() ? name.get<std::string>() : "");
 }
 
 // The names of all extensions that stand somewhere, at any depth that parse_json() lets files nest; not in

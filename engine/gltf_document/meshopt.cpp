@@ -1,19 +1,15 @@
 #include "engine/gltf_document/meshopt.h"
 
-#include "engine/gltf_document/expansion.h"
+#include "engine/gltf_document/usage.h"
 
 #include <meshoptimizer.h>
 
-#include <array>
 #include <cstdint>
-#include <optional>
 
 namespace qtrace::gltf {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array<const char*, 2> kExtensions{"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 // The library asserts what follows from the extension's text and says no more than that decoding failed.
 class Decoder {
@@ -73,6 +69,10 @@ class Decoder {
     } else if (filter_ == "QUATERNION") {
       expect(stride_ == 8, "8 with ATTRIBUTES");
       meshopt_decodeFilterQuat(values, count_, stride_);
+    } else if (filter_ == "COLOR") {
+      source_.fail(
+          "{}: filter COLOR is not supported; NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL would be right",
+          place_);
     } else {
       expect(true, "ATTRIBUTES");
       meshopt_decodeFilterExp(values, count_, stride_);
@@ -99,38 +99,18 @@ std::span<const unsigned char> compressed_bytes(const Source& source, const json
   return std::span(bytes).subspan(offset, length);
 }
 
-// The extension by which a buffer view is compressed, if it is.
-std::optional<json::const_iterator> compression_of(const json& view) {
-  const auto extensions = view.find("extensions");
-  if (extensions == view.end()) return {};
-  for (const char* name : kExtensions) {
-    const auto extension = extensions->find(name);
-    if (extension != extensions->end()) return extension;
-  }
-  return {};
-}
-
 }  // namespace
-
-std::vector<bool> buffers_that_are_read(const json& document) {
-  std::vector<bool> is_read(document.value("buffers", json::array()).size());
-  for (const json& view : document.value("bufferViews", json::array())) {
-    const auto compression = compression_of(view);
-    is_read.at((compression ? **compression : view).at("buffer").get<std::size_t>()) = true;
-  }
-  return is_read;
-}
 
 void decode_meshopt(const Source& source, json& document, std::vector<tinygltf::Buffer>& buffers,
                     std::size_t max_bytes) {
-  const auto views = document.find("bufferViews");
   std::size_t rest = max_bytes;
-  for (std::size_t i = 0; views != document.end() && i < views->size(); ++i) {
-    json& view = (*views)[i];
-    const auto compression = compression_of(view);
-    if (!compression) continue;
-    const std::string place = fmt::format("bufferView {} {}", i, compression->key());
-    const json extension = **compression;
+  for (const std::size_t i : used_views(document)) {
+    json& view = document["bufferViews"][i];
+    const char* name = nullptr;
+    const json* found = meshopt_of(view, &name);
+    if (found == nullptr) continue;
+    const std::string place = fmt::format("bufferView {} {}", i, name);
+    const json extension = *found;
     const Decoder decoder(source, place, extension, compressed_bytes(source, extension, place, buffers));
     const std::size_t size = decoder.size(rest);
     rest -= size;

@@ -10,12 +10,8 @@
 
 namespace qtrace::gltf {
 
-// For each buffer, whether a buffer view reads it. A compressed view reads the buffer with its compressed
-// bytes; the one that it stands for may have none. The document has passed check_json().
-std::vector<bool> buffers_that_are_read(const nlohmann::json& document);
-
-// Gives each compressed bufferView the bytes that it stands for. Error where these cannot be decoded, or
-// where all of them would have more than `max_bytes`. The document has passed check_json().
+// Gives each compressed bufferView that is used the bytes that it stands for. Error where these cannot be
+// decoded, or where all of them would have more than `max_bytes`. The document has passed check_json().
 void decode_meshopt(const Source& source, nlohmann::json& document, std::vector<tinygltf::Buffer>& buffers,
                     std::size_t max_bytes);
 

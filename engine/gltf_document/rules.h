@@ -76,7 +76,7 @@ inline constexpr Rule kRules[] = {
     {"bufferViews/[]/extensions/KHR_meshopt_compression/count!", Kind::integer},
     {"bufferViews/[]/extensions/KHR_meshopt_compression/mode!", Kind::one_of, "ATTRIBUTES TRIANGLES INDICES"},
     {"bufferViews/[]/extensions/KHR_meshopt_compression/filter", Kind::one_of,
-     "NONE OCTAHEDRAL QUATERNION EXPONENTIAL"},
+     "NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR"},
     {"buffers/[]/byteLength!", Kind::integer},
     {"buffers/[]/uri", Kind::string},
     {"materials/[]/name", Kind::string},

@@ -188,6 +188,12 @@ void check_transform(const Source& source, const json& node, std::size_t index) 
                index);
 }
 
+// The numbers of a camera stand in an object that is called as its type is.
+void check_camera(const Source& source, const json& camera, std::size_t index) {
+  const auto type = camera.at("type").get<std::string>();
+  source.check(camera.contains(type), "cameras[{}].{} is missing", index, type);
+}
+
 }  // namespace
 
 void check_json(Source& source, json& document) {
@@ -196,6 +202,10 @@ void check_json(Source& source, json& document) {
   const auto nodes = document.find("nodes");
   for (std::size_t i = 0; nodes != document.end() && i < nodes->size(); ++i) {
     check_transform(source, (*nodes)[i], i);
+  }
+  const auto cameras = document.find("cameras");
+  for (std::size_t i = 0; cameras != document.end() && i < cameras->size(); ++i) {
+    check_camera(source, (*cameras)[i], i);
   }
 }
 

@@ -78,6 +78,14 @@ TEST_F(GltfCameraTest, OfTheFileByNameOrIndex) {
                 "node 'third'; the name of a node would be right"});
 }
 
+TEST_F(GltfCameraTest, NodesWithoutANameGoByTheirIndex) {
+  gltf.json["nodes"][0].erase("name");
+  gltf.add_node({{"camera", 0}, {"translation", {9, 9, 9}}});
+  expect_error(through({"", 0}),
+               {"camera 0 at node 0, camera 0 at node 2; the name of a node would be right"});
+  expect_position(load(through({"node 2", {}})), {9, 9, 9});
+}
+
 TEST_F(GltfCameraTest, PlacedInTheFilesWorld) {
   gltf.json["nodes"][0].erase("camera");
   const Camera camera = load(from({{1, 2, 3}, {1, 2, -3}, {0, 3, 1}, 60})).camera;

@@ -45,6 +45,8 @@ class GltfCompressionTest : public GltfTest {
     }
   }
 
+  nlohmann::json& primitive() { return gltf.json["meshes"][0]["primitives"][0]; }
+
   nlohmann::json primitive_;
   Scene plain_;
 };
@@ -96,6 +98,21 @@ TEST_F(GltfMeshoptTest, ABufferThatOnlyStandsForItNeedsNoBytes) {
   expect_same_as_plain();
   gltf.json["bufferViews"][0].erase("extensions");
   expect_error({"buffer 1: 'not_delivered.bin': there is no such file"});
+}
+
+// As of vertex colours, whose filter the library does not know.
+TEST_F(GltfMeshoptTest, ViewsThatNothingReadsMayBeOfAnyKind) {
+  gltf.json["extensionsUsed"].push_back("KHR_meshopt_compression");
+  const std::size_t view = gltf.json["bufferViews"].size();
+  gltf.json["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 16}});
+  gltf.json["bufferViews"][view]["extensions"]["KHR_meshopt_compression"] = {
+      {"buffer", 0}, {"byteLength", 5},      {"byteStride", 4},
+      {"count", 4},  {"mode", "ATTRIBUTES"}, {"filter", "COLOR"}};
+  expect_same_as_plain();
+  gltf.json["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", kByte}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}});
+  primitive()["attributes"]["NORMAL"] = gltf.json["accessors"].size() - 1;
+  expect_error({fmt::format("bufferView {} KHR_meshopt_compression", view)});
 }
 
 TEST_F(GltfMeshoptTest, FiltersAreUndone) {
@@ -182,7 +199,6 @@ class GltfDracoTest : public GltfCompressionTest {
     primitive() = primitive_;
     extension() = {{"bufferView", 3}, {"attributes", {{"NORMAL", 0}, {"POSITION", 1}}}};
   }
-  nlohmann::json& primitive() { return gltf.json["meshes"][0]["primitives"][0]; }
   nlohmann::json& extension() { return primitive()["extensions"]["KHR_draco_mesh_compression"]; }
 
   std::vector<unsigned char> bytes_;

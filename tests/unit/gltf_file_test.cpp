@@ -147,8 +147,19 @@ TEST_F(GltfFileTest, DataUrisOfAnyMediaTypeHoldBytes) {
 }
 
 TEST_F(GltfFileTest, BuffersThatNothingReadsMayBeMissing) {
-  gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}, {{"byteLength", 9}, {"uri", "none.bin"}}};
+  gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}, {{"byteLength", 99}, {"uri", "none.bin"}}};
   EXPECT_EQ(load().triangles.size(), 1U);
+  // As of an image, of an animation, or of an attribute that nothing reads.
+  const std::size_t view = gltf.json["bufferViews"].size(), accessor = gltf.json["accessors"].size();
+  gltf.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 99}});
+  gltf.json["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", kFloat}, {"count", 3}, {"type", "SCALAR"}});
+  gltf.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+  gltf.json["animations"] = {{{"samplers", {{{"input", accessor}, {"output", accessor}}}}}};
+  gltf.primitive_json()["attributes"]["_TEMPERATURE"] = accessor;
+  EXPECT_EQ(load().triangles.size(), 1U);
+  gltf.primitive_json()["attributes"]["NORMAL"] = accessor;
+  expect_error({"buffer 1: 'none.bin': there is no such file"});
 }
 
 TEST_F(GltfFileTest, RefusesBuffersOutsideTheFolder) {

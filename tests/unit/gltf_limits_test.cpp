@@ -71,7 +71,12 @@ TEST_F(GltfLimitsTest, BuffersThatShareAFileAreCounted) {
   const nlohmann::json buffer = {{"byteLength", kSize}, {"uri", "data.bin"}};
   gltf.json["buffers"] = std::vector<nlohmann::json>(8193, buffer);
   for (std::size_t i = 0; i < 8193; ++i) {
-    gltf.json["bufferViews"].push_back({{"buffer", i}, {"byteLength", 1}});
+    gltf.json["skins"].push_back({{"joints", {0}}, {"inverseBindMatrices", gltf.json["accessors"].size()}});
+    gltf.json["accessors"].push_back({{"bufferView", gltf.json["bufferViews"].size()},
+                                      {"componentType", kFloat},
+                                      {"count", 1},
+                                      {"type", "MAT4"}});
+    gltf.json["bufferViews"].push_back({{"buffer", i}, {"byteLength", 64}});
   }
   expect_error(folder.write("scene.gltf", gltf.json.dump()),
                {"the buffers ask for more than 8589934592 bytes of files, which is the most supported"});

@@ -71,6 +71,14 @@ TEST_F(GltfMaterialTest, ReadsStrengthsThatNoIntHolds) {
   EXPECT_EQ(load().materials.at(0).emission, glm::vec3(3e9F, 0, 0));
 }
 
+TEST_F(GltfMaterialTest, RoundedFactorsAreWithinTheirRange) {
+  material()["pbrMetallicRoughness"]["roughnessFactor"] = 1.000001;
+  expect_warning("material 'wood': roughnessFactor is 1.000001; it is read as 1");
+  EXPECT_EQ(load().materials.at(0).roughness, 1);
+  material()["pbrMetallicRoughness"]["roughnessFactor"] = -1e-7;
+  EXPECT_EQ(load().materials.at(0).roughness, 0);
+}
+
 TEST_F(GltfMaterialTest, RefusesFactorsOutOfRange) {
   const std::vector<std::pair<std::string, nlohmann::json>> factors{
       {"/pbrMetallicRoughness/baseColorFactor", {0, 1.5, 0, 1}},

@@ -50,8 +50,9 @@ TEST_F(GltfQuantizationTest, NormalsAndTextureCoordinates) {
   EXPECT_EQ(load().triangles.at(0).uv[0], glm::vec2(0, 2));
   EXPECT_EQ(load().triangles.at(0).uv[1], glm::vec2(-3, 0));
   set("NORMAL", normals, "VEC3", kByte, false);
-  expect_error({"NORMAL (accessor",
-                "has the wrong type (component type 5120); VEC3 of float, or of normalized bytes or shorts"});
+  expect_error(
+      {"NORMAL (accessor",
+       "has the wrong type (VEC3 of component type 5120); VEC3 of float, or of normalized bytes or shorts"});
 }
 
 TEST_F(GltfQuantizationTest, IsReadWithAWarningWhereItIsNotDeclared) {

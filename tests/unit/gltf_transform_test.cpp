@@ -149,6 +149,8 @@ TEST_F(GltfTransformTest, RefusesOtherCameras) {
   expect_error({"yfov is -1"});
   perspective().erase("yfov");
   expect_error({"cameras[0].perspective.yfov is missing"});
+  gltf.json["cameras"][0].erase("perspective");
+  expect_error({"cameras[0].perspective is missing"});
 }
 
 TEST_F(GltfTransformTest, FurtherCamerasAreIgnored) {
@@ -192,6 +194,13 @@ TEST_F(GltfTransformTest, RotationsOfNearlyUnitLengthAreNormalised) {
   EXPECT_TRUE(load().warnings.empty());
   node()["rotation"] = {0, 0, 0, 0.985};
   expect_error({"node 'thing': the rotation has length 0.985"});
+}
+
+TEST_F(GltfTransformTest, RoundedMatricesAreAffine) {
+  node() = {{"name", "thing"}, {"mesh", 0}};
+  node()["matrix"] = {1, 0, 0, 0, 0, 1, 0, 1e-7, 0, 0, 1, 0, 0, 0, 5, 0.99999994};
+  expect_warning("node 'thing': the matrix's last row is 0 1e-07 0 0.99999994; it is read as 0 0 0 1");
+  EXPECT_EQ(load().triangles.at(0).position[2], glm::vec3(0, 1, 5));
 }
 
 TEST_F(GltfTransformTest, RefusesUnusableTransforms) {

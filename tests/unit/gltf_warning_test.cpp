@@ -116,6 +116,24 @@ TEST_F(GltfWarningTest, DropsTrianglesWithoutArea) {
   EXPECT_EQ(load().triangles.size(), 1U);
 }
 
+TEST_F(GltfWarningTest, TrianglesThatJoinStripsAreNotLost) {
+  gltf.primitive_json() = gltf.primitive({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0});
+  gltf.primitive_json()["indices"] = gltf.add_indices({0, 1, 2, 2, 3, 3, 4, 5});
+  gltf.primitive_json()["mode"] = kStrip;
+  EXPECT_TRUE(load().warnings.empty());
+  EXPECT_EQ(load().triangles.size(), 2U);
+}
+
+TEST_F(GltfWarningTest, BrokenAnimationsAreLeftOut) {
+  for (const nlohmann::json& animation : {nlohmann::json(5), nlohmann::json("walk"), {{"name", 5}}}) {
+    gltf.json["animations"] = nlohmann::json::array({animation});
+    const Scene scene = load();
+    EXPECT_EQ(scene.triangles.size(), 1U);
+    EXPECT_NE(::testing::PrintToString(scene.warnings).find("it is left out, as nothing uses it"),
+              std::string::npos);
+  }
+}
+
 TEST_F(GltfWarningTest, OmitsObjectsWithoutTriangles) {
   gltf.json["nodes"][1]["scale"] = {0, 0, 0};
   EXPECT_TRUE(load().objects.empty());

@@ -1,0 +1,28 @@
+// What of a document the loader reads. The rest may be missing or broken: it changes nothing.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+namespace qtrace::gltf {
+
+// An attribute of primitives that the loader reads, such as POSITION or JOINTS_1.
+bool is_read_attribute(const std::string& name);
+
+// Each for a document that has passed check_json().
+// Those of meshes, skins and instances.
+std::set<std::size_t> used_accessors(const nlohmann::json& document);
+// Those of the used accessors, and of compressed primitives.
+std::set<std::size_t> used_views(const nlohmann::json& document);
+// For each buffer. A compressed view reads the buffer with its compressed bytes; the one that it stands for
+// may have none.
+std::vector<bool> buffers_that_are_read(const nlohmann::json& document);
+
+// The extension by which meshoptimizer compressed a buffer view; null if it did not. `name` becomes the
+// extension's.
+const nlohmann::json* meshopt_of(const nlohmann::json& view, const char** name = nullptr);
+
+}  // namespace qtrace::gltf
