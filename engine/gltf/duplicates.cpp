@@ -1,5 +1,7 @@
 #include "engine/gltf/duplicates.h"
 
+#include "engine/gltf/rebuild.h"
+
 #include <glm/geometric.hpp>
 
 #include <xxhash.h>
@@ -102,30 +104,6 @@ void warn_of(Source& source, const Scene& scene, const std::vector<Duplicate>& d
   }
 }
 
-// Objects that have nothing left are omitted.
-void remove(Scene& scene, const std::vector<Duplicate>& duplicates) {
-  std::vector<Triangle> triangles;
-  std::vector<Object> objects;
-  triangles.reserve(scene.triangles.size());
-  auto next = duplicates.begin();
-  for (const Object& object : scene.objects) {
-    Object rest = object;
-    rest.first_triangle = static_cast<std::uint32_t>(triangles.size());
-    for (std::uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i) {
-      if (next != duplicates.end() && next->triangle == i) {
-        ++next;
-        continue;
-      }
-      triangles.push_back(scene.triangles[i]);
-      triangles.back().object = static_cast<std::uint32_t>(objects.size());
-    }
-    rest.triangle_count = static_cast<std::uint32_t>(triangles.size()) - rest.first_triangle;
-    if (rest.triangle_count > 0) objects.push_back(std::move(rest));
-  }
-  scene.triangles = std::move(triangles);
-  scene.objects = std::move(objects);
-}
-
 }  // namespace
 
 void drop_duplicates(Source& source, Scene& scene) {
@@ -133,7 +111,14 @@ void drop_duplicates(Source& source, Scene& scene) {
   if (duplicates.empty()) return;
   check_emission(source, scene, duplicates);
   warn_of(source, scene, duplicates);
-  remove(scene, duplicates);
+  auto next = duplicates.cbegin();
+  rebuild(scene, [&](std::uint32_t i, std::vector<Triangle>& triangles) {
+    if (next != duplicates.cend() && next->triangle == i) {
+      ++next;
+    } else {
+      triangles.push_back(scene.triangles[i]);
+    }
+  });
 }
 
 }  // namespace qtrace::gltf

@@ -1,14 +1,12 @@
 #include "engine/gltf/overlaps.h"
 
 #include "engine/gltf/coplanar.h"
+#include "engine/gltf/cut.h"
 #include "engine/gltf/parts.h"
-#include "engine/gltf/prism.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -70,19 +68,12 @@ class Overlaps {
     judge();
     if (cuts_.empty() && moved_.empty()) return;
     for (const std::uint32_t i : moved_) move_out(scene_.triangles[i]);
-    std::ranges::sort(cuts_);
-    rebuild();
+    cut_out(source_, scene_, std::move(cuts_), static_cast<double>(rounding_), max_triangles_);
   }
 
  private:
   // Of two parts, the first of them with the lower index, and whether they face opposite sides.
   using Key = std::tuple<std::uint32_t, std::uint32_t, bool>;
-
-  struct Cut {
-    std::uint32_t loser;
-    std::uint32_t winner;
-    auto operator<=>(const Cut&) const = default;
-  };
 
   const Part& part(std::uint32_t index) const { return parts_.all()[index]; }
   std::string name_of(const Part& part) const {
@@ -191,73 +182,13 @@ class Overlaps {
     for (glm::vec3& p : triangle.position) p += step;
   }
 
-  void rebuild() {
-    std::vector<Triangle> triangles;
-    std::vector<Object> objects;
-    auto next = cuts_.cbegin();
-    for (const Object& object : scene_.objects) {
-      Object rest = object;
-      rest.first_triangle = static_cast<std::uint32_t>(triangles.size());
-      for (std::uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i) {
-        std::vector<Polygon> parts{polygon_of(scene_.triangles[i])};
-        const bool is_whole = next == cuts_.cend() || next->loser != i;
-        for (; next != cuts_.cend() && next->loser == i; ++next) parts = without(parts, next->winner);
-        if (is_whole)
-          triangles.push_back(scene_.triangles[i]);
-        else
-          for (const Polygon& part : parts) add_part(scene_.triangles[i], part, triangles);
-      }
-      source_.check(
-          triangles.size() <= max_triangles_,
-          "without what overlaps in one plane the scene has more than {} triangles, which is the most "
-          "supported",
-          max_triangles_);
-      rest.triangle_count = static_cast<std::uint32_t>(triangles.size()) - rest.first_triangle;
-      if (rest.triangle_count == 0) continue;
-      for (std::size_t i = rest.first_triangle; i < triangles.size(); ++i) {
-        triangles[i].object = static_cast<std::uint32_t>(objects.size());
-      }
-      objects.push_back(std::move(rest));
-    }
-    scene_.triangles = std::move(triangles);
-    scene_.objects = std::move(objects);
-  }
-
-  std::vector<Polygon> without(const std::vector<Polygon>& parts, std::uint32_t winner) const {
-    const Prism prism(scene_.triangles[winner]);
-    std::vector<Polygon> rest;
-    for (const Polygon& part : parts) {
-      // Cut by the planes of the winner's sides, what lies beside it would fall apart for nothing.
-      if (is_wide(prism.inside(part), static_cast<double>(rounding_)))
-        prism.add_outside(part, static_cast<double>(rounding_), rest);
-      else
-        rest.push_back(part);
-    }
-    return rest;
-  }
-
-  static void add_part(const Triangle& whole, const Polygon& part, std::vector<Triangle>& triangles) {
-    for (std::size_t i = 2; i < part.size(); ++i) {
-      Triangle piece = whole;
-      const std::array<const Corner*, 3> corners{&part[0], &part[i - 1], &part[i]};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const glm::vec3 b(corners[k]->barycentric);
-        piece.position[k] = corners[k]->position;
-        piece.normal[k] =
-            glm::normalize(b.x * whole.normal[0] + b.y * whole.normal[1] + b.z * whole.normal[2]);
-        piece.uv[k] = b.x * whole.uv[0] + b.y * whole.uv[1] + b.z * whole.uv[2];
-      }
-      if (area_of(piece) > 0) triangles.push_back(piece);
-    }
-  }
-
   Source& source_;
   Scene& scene_;
   std::size_t max_triangles_;
   float rounding_;
   Parts parts_;
   std::vector<Overlap> overlaps_;
-  std::vector<Cut> cuts_;          // sorted by loser before the scene is rebuilt
+  std::vector<Cut> cuts_;
   std::set<std::uint32_t> moved_;  // triangles
 };
 
