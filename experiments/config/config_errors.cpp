@@ -11,10 +11,14 @@ namespace {
 
 // Configs that hold one member of the whole each: of groups every member, of the sweep every axis.
 std::vector<Json> single_members(const Json& config) {
+  const std::vector<KeyRow> knobs = list_knobs(ExperimentKeys{});
+  const auto is_knob = [&](const std::string& key) {  // whose value is an object, as a place of the camera
+    return std::ranges::find(knobs, key, &KeyRow::key) != knobs.end();
+  };
   std::vector<Json> singles;
   for (const auto& [key, value] : config.items()) {
     if (key == "$schema") continue;
-    if (value.is_object() && !value.empty()) {
+    if (value.is_object() && !value.empty() && !is_knob(key)) {
       for (const auto& [member, inner] : value.items()) singles.push_back({{key, {{member, inner}}}});
     } else if (key == "sweep" && value.is_array()) {
       for (const Json& axis : value) singles.push_back({{key, Json::array({axis})}});

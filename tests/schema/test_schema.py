@@ -163,13 +163,15 @@ class SchemaTest(unittest.TestCase):
 
     def test_every_error_of_a_file_is_named(self) -> None:
         config = GOOD | {"widht": 3, "frames": 0, "rl": {"bins_fi": 3, "update": "best", "bins_phi": 4}, "nee": "none",
-                         "rl.bins_theta": 65, "sweep": [{"sed": [1]}, {"seed": [1]}, {"nee": []},
-                                                     {"how": {"A": {"rl": {"bins_phi": 0}}}}]}
+                         "rl.bins_theta": 65, "camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 400},
+                         "sweep": [{"sed": [1]}, {"seed": [1]}, {"nee": []},
+                                   {"how": {"A": {"rl": {"bins_phi": 0}}}}]}
         (self.folder / "c.json").write_text(json.dumps(config))
         result = qtrace("config", "check", "--no-device", "c.json", cwd=self.folder)
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         words = ["key 'frames' is 0", "unknown key 'widht'; did you mean 'width'?", "unknown key 'rl.bins_fi'",
-                 "key 'rl.update' is \"best\"", "key 'rl.bins_theta' is 65", "unknown key 'sed'",
+                 "key 'rl.update' is \"best\"", "key 'rl.bins_theta' is 65",
+                 "key 'camera.fov' is 400", "unknown key 'sed'",
                  "sweep axis 'nee' has no values", "'A' of sweep axis 'how': key 'rl.bins_phi' is 0"]
         lines = result.stderr.splitlines()
         self.assertEqual(len(lines), len(words), result.stderr)
