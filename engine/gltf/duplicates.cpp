@@ -1,5 +1,6 @@
 #include "engine/gltf/duplicates.h"
 
+#include "engine/gltf/parts.h"
 #include "engine/gltf/rebuild.h"
 
 #include <glm/geometric.hpp>
@@ -28,16 +29,12 @@ struct Duplicate {
   std::uint32_t original;  // before it, and kept
 };
 
-bool emits(const Scene& scene, std::uint32_t triangle) {
-  return scene.materials[scene.triangles[triangle].material].emission != glm::vec3(0.0F);
-}
-
 // Both emit; ordered by triangle.
 std::vector<Duplicate> find_duplicates(const Scene& scene) {
   const std::vector<Triangle>& triangles = scene.triangles;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (!emits(scene, i)) continue;
+    if (!emits(scene.materials[triangles[i].material])) continue;
     const Corners corners = sorted_corners(triangles[i]);
     keys.emplace_back(XXH3_64bits(corners.data(), sizeof(corners)), i);
   }
@@ -61,12 +58,6 @@ std::vector<Duplicate> find_duplicates(const Scene& scene) {
   return duplicates;
 }
 
-bool emit_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
-  const Material& first = scene.materials[a.material];
-  const Material& second = scene.materials[b.material];
-  return first.emission == second.emission && first.double_sided == second.double_sided;
-}
-
 std::string triangle_label(const Scene& scene, std::uint32_t index) {
   const std::size_t object = scene.triangles[index].object;
   return fmt::format("triangle {} of {}", index - scene.objects[object].first_triangle,
@@ -82,7 +73,8 @@ std::string middle_of(const Scene& scene, std::uint32_t index) {
 void check_emission(const Source& source, const Scene& scene, const std::vector<Duplicate>& duplicates) {
   for (const Duplicate& d : duplicates) {
     source.check(
-        emit_alike(scene, scene.triangles[d.original], scene.triangles[d.triangle]),
+        emit_alike(scene.materials[scene.triangles[d.original].material],
+                   scene.materials[scene.triangles[d.triangle].material]),
         "{} and {}, about {}, have the same corners but do not emit alike; only one of them would be right",
         triangle_label(scene, d.original), triangle_label(scene, d.triangle), middle_of(scene, d.original));
   }

@@ -78,8 +78,7 @@ void read_emission(Source& source, const tinygltf::Material& file, const Factors
   if (file.emissiveTexture.index >= 0 && material.emission != glm::vec3(0)) {
     source.warn(
         "{}: emits nothing, as its emissiveTexture is not modelled, and the factor alone would make a lamp "
-        "of "
-        "all of its surface",
+        "of all of its surface",
         factors.material());
     material.emission = glm::vec3(0);
   }

@@ -40,11 +40,6 @@ float rounding_of(const Scene& scene, float extent) {
   return std::max(kOfHits * largest, kOfPositions * extent);
 }
 
-bool emit_alike(const Scene& scene, const Part& a, const Part& b) {
-  const Material &first = scene.materials[a.material], &second = scene.materials[b.material];
-  return first.emission == second.emission && first.double_sided == second.double_sided;
-}
-
 // What two parts share, on the same side or on opposite ones.
 struct Contact {
   double shared = 0;
@@ -129,7 +124,7 @@ class Overlaps {
     if (is_opposite) return Verdict::left;
     if (a.emits) {
       source_.check(
-          emit_alike(scene_, a, b),
+          emit_alike(scene_.materials[a.material], scene_.materials[b.material]),
           "{} and {} lie in one plane and overlap, and do not emit alike; only one of them would be "
           "right there",
           name_of(a), name_of(b));

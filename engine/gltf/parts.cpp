@@ -12,7 +12,7 @@ std::vector<std::uint32_t> looks_of(const std::vector<Material>& materials) {
   std::vector<Material> nameless = materials;
   for (Material& material : nameless) {
     material.name.clear();
-    if (material.emission == glm::vec3(0.0F)) material.double_sided = false;  // of no consequence then
+    if (!emits(material)) material.double_sided = false;  // of no consequence then
   }
   std::vector<std::uint32_t> looks;
   for (const Material& material : nameless) {
@@ -36,8 +36,12 @@ Parts::Parts(const Scene& scene, float margin) {
       const auto [place, is_new] = indices.try_emplace({triangle.object, triangle.material}, next);
       index = place->second;
       if (is_new) {
-        const bool emits = scene.materials[triangle.material].emission != glm::vec3(0.0F);
-        parts_.push_back({triangle.object, triangle.material, looks[triangle.material], emits, 0, {}});
+        parts_.push_back({triangle.object,
+                          triangle.material,
+                          looks[triangle.material],
+                          emits(scene.materials[triangle.material]),
+                          0,
+                          {}});
       }
     }
     parts_[index].area += area_of(triangle);

@@ -9,6 +9,13 @@
 
 namespace qtrace::gltf {
 
+inline bool emits(const Material& material) { return material.emission != glm::vec3(0.0F); }
+
+// Of two that emit: the same, and to as many sides.
+inline bool emit_alike(const Material& a, const Material& b) {
+  return a.emission == b.emission && a.double_sided == b.double_sided;
+}
+
 struct Part {
   std::uint32_t object = 0;
   std::uint32_t material = 0;

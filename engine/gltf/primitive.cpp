@@ -77,9 +77,8 @@ void Primitive::open_joints(const Source& source, const tinygltf::Primitive& fil
     const auto joint = file.attributes.find(joints), weight = file.attributes.find(weights);
     if (joint == file.attributes.end() && weight == file.attributes.end()) return;
     source.check(joint != file.attributes.end() && weight != file.attributes.end(),
-                 "{} has {} alone; {} and {} belong "
-                 "together",
-                 place_, joint == file.attributes.end() ? weights : joints, joints, weights);
+                 "{} has {} alone; {} and {} belong together", place_,
+                 joint == file.attributes.end() ? weights : joints, joints, weights);
     joints_.push_back(
         {AccessorView(source, joint->second, kJointsLayout, fmt::format("{} {}", place_, joints)),
          AccessorView(source, weight->second, kWeightsLayout, fmt::format("{} {}", place_, weights))});

@@ -94,8 +94,7 @@ Picture read_reference(const CompareOptions& options) {
   if (!options.reference_layer.empty()) return read_picture(options.reference, options.reference_layer);
   check(options.layer.empty() || has_layer(options.reference, options.layer),
         "{}: has no layer '{}', which {} has; --reference-layer names the one to compare with ('{}': its "
-        "channels "
-        "outside any layer)",
+        "channels outside any layer)",
         options.reference.string(), options.layer, options.image.string(), kRootLayer);
   return read_picture(options.reference, options.layer);
 }
@@ -112,8 +111,7 @@ std::string non_finite_line(const ErrorMetrics& errors, const RadianceImage& ima
   const std::size_t of_image = non_finite_pixels(image), of_reference = non_finite_pixels(reference);
   check(errors.non_finite < image.pixels(),
         "{}: no pixel is finite both there ({} of {} are not) and in the reference {} ({}), so that nothing "
-        "can be "
-        "compared",
+        "can be compared",
         options.image.string(), of_image, image.pixels(), options.reference.string(), of_reference);
   return fmt::format(
       "left out: {} of {} pixels, which are not finite ({} in the image, {} in the reference)\n",
