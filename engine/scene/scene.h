@@ -1,31 +1,36 @@
 // A scene as plain data in world space: what the loader makes and everything downstream reads.
 #pragma once
 
+#include "engine/scene/lights.h"
+#include "engine/scene/material.h"
+#include "engine/scene/texture.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace qtrace {
 
-// glTF 2.0 metallic-roughness with KHR_materials_specular and KHR_materials_emissive_strength.
-struct Material {
-  std::string name;
-  glm::vec3 base_color{1.0F};      // linear, in [0, 1]
-  float metallic = 1.0F;           // in [0, 1]
-  float roughness = 1.0F;          // perceptual, in [0, 1]; alpha = roughness^2
-  float specular = 1.0F;           // strength of the dielectric lobe, in [0, 1]; 0 with metallic 0: Lambert
-  glm::vec3 specular_color{1.0F};  // F0 tint of the dielectric lobe, >= 0
-  glm::vec3 emission{0.0F};        // radiance, emissiveFactor * emissiveStrength, >= 0
-  bool double_sided = false;       // emission leaves the back face too
+// Of a triangle's corners, what few scenes have.
+struct TriangleAttributes {
+  std::array<glm::vec2, 3> uv1{};  // TEXCOORD_1; zero where the file has none
+  // xyz: unit, in the world, along growing u of the normal texture; w: 1 or -1: w cross(normal, tangent)
+  // points up in the image, where v falls. Every triangle whose material has a texture of normals has them.
+  std::array<glm::vec4, 3> tangent{};
+  // COLOR_0: base colour and opacity are multiplied with it; linear.
+  std::array<glm::vec4, 3> color{glm::vec4(1), glm::vec4(1), glm::vec4(1)};
 
-  bool operator==(const Material&) const = default;
+  bool operator==(const TriangleAttributes&) const = default;
 };
+inline constexpr std::uint32_t kNoAttributes = 0xffffffffU;
 
 // Counter-clockwise order seen from the front, also under a mirroring node transform.
 struct Triangle {
@@ -34,6 +39,7 @@ struct Triangle {
   std::array<glm::vec2, 3> uv;      // zero where the object has no UV map
   std::uint32_t material = 0;
   std::uint32_t object = 0;
+  std::uint32_t attributes = kNoAttributes;  // of Scene::attributes
 };
 
 // Along the face normal, twice the triangle's area long; in double precision, which tells from float
@@ -63,8 +69,12 @@ struct Camera {
 struct Scene {
   std::string name;  // the file's name without folder and extension
   std::vector<Triangle> triangles;
+  std::vector<TriangleAttributes> attributes;
   std::vector<Material> materials;
+  std::vector<TextureImage> images;
   std::vector<Object> objects;
+  std::vector<PunctualLight> lights;
+  std::optional<EnvironmentMap> environment;  // in place of the constant one of the settings
   Camera camera;
   glm::dvec3 origin{0.0};  // of positions here, in the file's world; other than zero far from there
   std::vector<std::string> warnings;  // what the file holds and the tracer does not model, one sentence each

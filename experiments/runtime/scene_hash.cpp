@@ -2,6 +2,10 @@
 
 #include "experiments/files/hash.h"
 
+#include <array>
+#include <cstddef>
+#include <cstring>
+
 namespace qtrace::experiments {
 namespace {
 
@@ -16,13 +20,21 @@ void add_material(Hasher& hasher, const Material& material) {
   hasher.add(material.double_sided);
 }
 
+// All that triangles have had from the start: the members before `attributes`.
+void add_triangle(Hasher& hasher, const Triangle& triangle) {
+  constexpr std::size_t kBytes = offsetof(Triangle, attributes);
+  static_assert(kBytes == 26 * 4, "padding would make equal triangles hash differently");
+  std::array<std::byte, kBytes> bytes;
+  std::memcpy(bytes.data(), &triangle, kBytes);
+  hasher.add(bytes);
+}
+
 }  // namespace
 
 std::string scene_hash(const Scene& scene) {
-  static_assert(sizeof(Triangle) == 26 * 4, "padding would make equal triangles hash differently");
   Hasher hasher;
   hasher.add(scene.triangles.size());
-  for (const Triangle& triangle : scene.triangles) hasher.add(triangle);
+  for (const Triangle& triangle : scene.triangles) add_triangle(hasher, triangle);
   hasher.add(scene.materials.size());
   for (const Material& material : scene.materials) add_material(hasher, material);
   hasher.add(scene.objects.size());
