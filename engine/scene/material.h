@@ -45,7 +45,7 @@ struct Material {
 
   float normal_scale = 1.0F;                                   // of x and y of the normal texture
   float clearcoat_normal_scale = 1.0F;                         // likewise
-  std::array<std::optional<Texture>, kTextureSlots> textures;  // by TextureSlot
+  std::array<std::optional<Texture>, kTextureSlots> textures{};  // by TextureSlot
 
   const std::optional<Texture>& texture(TextureSlot slot) const {
     return textures[static_cast<std::size_t>(slot)];
