@@ -1,6 +1,7 @@
 #include "engine/device_scene/light_table.h"
 
 #include "engine/device_scene/alias_table.h"
+#include "engine/device_scene/emitters.h"
 #include "engine/device_scene/light_groups.h"
 
 #include <glm/common.hpp>
@@ -11,22 +12,17 @@
 namespace qtrace::gpu {
 namespace {
 
-double mean_radiance(const qtrace::Material& material) {
-  return (double{material.emission.r} + material.emission.g + material.emission.b) / 3.0;
-}
-
-double power_of(const Scene& scene, std::uint32_t triangle) {
+double power_of(const Scene& scene, const Emitters& emitters, std::uint32_t triangle) {
   const Triangle& t = scene.triangles[triangle];
-  const qtrace::Material& material = scene.materials[t.material];
-  return mean_radiance(material) * area_of(t) * (material.double_sided ? 2 : 1);
+  return emitters.mean_radiance(triangle) * area_of(t) * (scene.materials[t.material].double_sided ? 2 : 1);
 }
 
-std::vector<std::uint32_t> find_emitters(const Scene& scene) {
-  std::vector<std::uint32_t> emitters;
+std::vector<std::uint32_t> find_emitters(const Scene& scene, const Emitters& emitters) {
+  std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    if (power_of(scene, i) > 0) emitters.push_back(i);
+    if (emitters.emits(i) && area_of(scene.triangles[i]) > 0) found.push_back(i);
   }
-  return emitters;
+  return found;
 }
 
 // `probability`: of the triangle within its light.
@@ -38,7 +34,7 @@ LightTriangle make_triangle(const Scene& scene, std::uint32_t index, double prob
   triangle.edge1 = vec4(t.position[1] - t.position[0], ray_offset(t));
   triangle.edge2 = vec4(t.position[2] - t.position[0], static_cast<float>(probability / area_of(t)));
   triangle.normal = vec4(glm::vec3(glm::normalize(area_vector(t.position))), 0);
-  triangle.radiance = vec4(material.emission, material.double_sided ? 1.0F : 0.0F);
+  triangle.radiance = vec4(material.emission, material.double_sided ? EMITS_BOTH : EMITS_FRONT);
   return triangle;
 }
 
@@ -70,9 +66,10 @@ Light make_light(const Scene& scene, const std::vector<std::uint32_t>& triangles
 }
 
 // Appends a light of these triangles; its own choice is left open. Returns its power.
-double add_light(LightTable& table, const Scene& scene, const std::vector<std::uint32_t>& triangles) {
+double add_light(LightTable& table, const Scene& scene, const Emitters& emitters,
+                 const std::vector<std::uint32_t>& triangles) {
   std::vector<double> powers;
-  for (const std::uint32_t i : triangles) powers.push_back(power_of(scene, i));
+  for (const std::uint32_t i : triangles) powers.push_back(power_of(scene, emitters, i));
   const double power = sum_of(powers);
   const auto first = static_cast<uint>(table.triangles.size());
   const std::vector<AliasSlot> slots = build_aliases(powers);
@@ -82,8 +79,7 @@ double add_light(LightTable& table, const Scene& scene, const std::vector<std::u
         uvec4(first + slots[i].alias, static_cast<uint>(table.lights.size()), slots[i].threshold, 0);
     table.triangle_of[triangles[i]] = static_cast<uint>(table.triangles.size());
     table.triangles.push_back(triangle);
-    const auto radiance = mean_radiance(scene.materials[scene.triangles[triangles[i]].material]);
-    table.brightest = std::max(table.brightest, static_cast<float>(radiance));
+    table.brightest = std::max(table.brightest, static_cast<float>(emitters.mean_radiance(triangles[i])));
   }
   Light light = make_light(scene, triangles, power);
   light.link = uvec4(0, first, 0, static_cast<uint>(triangles.size()));
@@ -102,9 +98,10 @@ float ray_offset(const Triangle& triangle) {
 LightTable build_light_table(const Scene& scene, LightChoice choice) {
   LightTable table;
   table.triangle_of.assign(scene.triangles.size(), NO_LIGHT);
+  const Emitters emitters(scene);
   std::vector<double> powers;
-  for (const auto& triangles : connected_groups(scene, find_emitters(scene))) {
-    powers.push_back(add_light(table, scene, triangles));
+  for (const auto& triangles : connected_groups(scene, find_emitters(scene, emitters))) {
+    powers.push_back(add_light(table, scene, emitters, triangles));
   }
   const double total = sum_of(powers);
   const std::vector<double> chances =

@@ -2,20 +2,15 @@
 
 #include "engine/core/check.h"
 #include "engine/device_scene/light_table.h"
+#include "engine/device_scene/material_table.h"
 
-#include <glm/common.hpp>
-
-#include <algorithm>
 #include <bit>
 #include <utility>
 
 namespace qtrace::gpu {
 namespace {
 
-// Below this the GGX lobe is narrower than single precision resolves.
-constexpr float kMinRoughness = 0.03F;
-// Reflectance of a dielectric of index of refraction 1.5 at normal incidence (glTF 2.0, Appendix B).
-constexpr float kDielectricF0 = 0.04F;
+const char* const kTexels = "the texels of all textures";
 
 float as_float(uint bits) { return std::bit_cast<float>(bits); }
 
@@ -36,65 +31,81 @@ std::vector<TriangleShape> pack_shapes(const Scene& scene, const Bvh& bvh) {
   return shapes;
 }
 
-std::vector<TriangleShade> pack_shades(const Scene& scene, const Bvh& bvh, const LightTable& lights) {
-  std::vector<TriangleShade> shades;
-  shades.reserve(bvh.order.size());
+// TriangleShade, and behind each corner's normal what else the features ask for.
+class ShadePacker {
+ public:
+  ShadePacker(const Scene& scene, const SceneFeatures& features) : scene_(scene), features_(features) {}
+
+  void add(const Triangle& t, uint light) {
+    const std::array<uint, 3> links{t.material, t.object, light};
+    const TriangleAttributes& attributes =
+        t.attributes == kNoAttributes ? kPlain : scene_.attributes[t.attributes];
+    for (std::size_t i = 0; i < 3; ++i) {
+      all_.emplace_back(t.normal[i], as_float(links[i]));
+      if (features_.textures != 0) all_.emplace_back(t.uv[i], attributes.uv1[i]);
+      if (features_.tangents) all_.push_back(attributes.tangent[i]);
+      if (features_.colors) all_.push_back(attributes.color[i]);
+    }
+  }
+
+  std::vector<vec4> all() && { return std::move(all_); }
+
+ private:
+  inline static const TriangleAttributes kPlain;
+  const Scene& scene_;
+  const SceneFeatures& features_;
+  std::vector<vec4> all_;
+};
+
+std::vector<vec4> pack_shades(const Scene& scene, const Bvh& bvh, const LightTable& lights,
+                              const SceneFeatures& features) {
+  ShadePacker packer(scene, features);
   for (const uint i : bvh.order) {
     if (i == kNoTriangle) {
-      shades.push_back({});
+      packer.add(Triangle{}, NO_LIGHT);
       continue;
     }
-    const Triangle& t = scene.triangles[i];
-    shades.push_back({vec4(t.normal[0], as_float(t.material)), vec4(t.normal[1], as_float(t.object)),
-                      vec4(t.normal[2], as_float(lights.triangle_of[i]))});
+    packer.add(scene.triangles[i], lights.triangle_of[i]);
   }
-  return shades;
+  return std::move(packer).all();
 }
 
-bool has_specular_lobe(const qtrace::Material& m) { return m.metallic > 0 || m.specular > 0; }
-
-gpu::Material pack_material(const qtrace::Material& m) {
-  const float roughness = std::max(m.roughness, kMinRoughness);
-  // KHR_materials_specular: F0 = min(0.04 * colour, 1) * strength, F90 = strength.
-  const glm::vec3 f0 = glm::min(kDielectricF0 * m.specular_color, glm::vec3(1.0F)) * m.specular;
-  return {vec4(m.base_color, m.metallic), vec4(m.emission, m.double_sided ? 1.0F : 0.0F),
-          vec4(f0, m.specular), vec4(roughness * roughness, 0, 0, 0)};
-}
-
-std::vector<gpu::Material> pack_materials(const Scene& scene) {
-  std::vector<gpu::Material> materials;
-  for (const qtrace::Material& m : scene.materials) materials.push_back(pack_material(m));
-  return materials;
-}
-
-SceneFeatures features_of(const Scene& scene, const LightTable& lights) {
-  return {std::ranges::any_of(scene.materials, has_specular_lobe), static_cast<uint>(lights.lights.size()),
-          lights.brightest};
+// Where the lights' triangles stand in the order of the leaves.
+std::vector<LightTriangle> with_places(const LightTable& lights, const Bvh& bvh) {
+  std::vector<LightTriangle> triangles = lights.triangles;
+  for (std::size_t place = 0; place < bvh.order.size(); ++place) {
+    const uint i = bvh.order[place];
+    if (i == kNoTriangle || lights.triangle_of[i] == NO_LIGHT) continue;
+    triangles[lights.triangle_of[i]].link.w = static_cast<uint>(place);
+  }
+  return triangles;
 }
 
 }  // namespace
 
-SceneFeatures find_features(const Scene& scene) {
-  return features_of(scene, build_light_table(scene, LightChoice::power));
-}
-
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice lights)
-    : SceneBuffers(scene, bvh, build_light_table(scene, lights)) {}
+    : SceneBuffers(scene, bvh, build_light_table(scene, lights), build_texture_table(scene)) {}
 
-SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights)
-    : features_(features_of(scene, lights)),
+SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights,
+                           const TextureTable& textures)
+    : features_(find_features(scene, lights)),
       nodes_(bvh, glm::vec3(scene.camera.world_from_camera[3])),
       shapes_("triangle shapes", pack_shapes(scene, bvh), only_fetched(Texels::float4)),
-      shades_("triangle normals", pack_shades(scene, bvh, lights), only_fetched(Texels::float4)),
-      materials_("materials", pack_materials(scene), only_fetched(Texels::float4)),
-      light_triangles_("light triangles", lights.triangles, only_fetched(Texels::float4)),
-      lights_("lights", lights.lights, only_fetched(Texels::float4)) {
+      shades_("triangle normals", pack_shades(scene, bvh, lights, features_), only_fetched(Texels::float4)),
+      materials_("materials", pack_materials(scene, textures), only_fetched(Texels::float4)),
+      light_triangles_("light triangles", with_places(lights, bvh), only_fetched(Texels::float4)),
+      lights_("lights", lights.lights, only_fetched(Texels::float4)),
+      texels_(kTexels, textures.texels, only_fetched(Texels::half4)) {
   for (const qtrace::Material& m : scene.materials) {
-    if (!has_specular_lobe(m) || m.roughness >= kMinRoughness) continue;
+    if (!has_specular_lobe(m) || m.roughness >= LEAST_ROUGHNESS) continue;
     warnings_.push_back(fmt::format(
         "material '{}' has roughness {}, which is rendered as {}: perfect mirrors are not modelled", m.name,
-        m.roughness, kMinRoughness));
+        m.roughness, LEAST_ROUGHNESS));
   }
+}
+
+void check_texels(const Scene& scene) {
+  check_buffer_size(kTexels, count_texels(scene) * sizeof(HalfTexel), only_fetched(Texels::half4));
 }
 
 void SceneBuffers::bind() const {
@@ -104,11 +115,12 @@ void SceneBuffers::bind() const {
   materials_.bind_fetched(UNIT_MATERIALS);
   light_triangles_.bind_fetched(UNIT_LIGHT_TRIANGLES);
   lights_.bind_fetched(UNIT_LIGHTS);
+  texels_.bind_fetched(UNIT_TEXELS);
 }
 
 std::size_t SceneBuffers::bytes() const {
   return nodes_.bytes() + shapes_.bytes() + shades_.bytes() + materials_.bytes() + light_triangles_.bytes() +
-         lights_.bytes();
+         lights_.bytes() + texels_.bytes();
 }
 
 }  // namespace qtrace::gpu

@@ -4,6 +4,8 @@
 #include "engine/accel/bvh.h"
 #include "engine/device_scene/light_table.h"
 #include "engine/device_scene/node_buffers.h"
+#include "engine/device_scene/scene_features.h"
+#include "engine/device_scene/texture_table.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/structs.h"
 #include "engine/scene/scene.h"
@@ -13,14 +15,8 @@
 
 namespace qtrace::gpu {
 
-// What a scene needs of the shaders; the rest is not compiled.
-struct SceneFeatures {
-  bool specular = false;  // any material with a specular lobe
-  uint lights = 0;        // connected emitting surfaces
-  float brightest = 0;    // mean radiance of the brightest
-};
-
-SceneFeatures find_features(const Scene& scene);
+// Throws Error, by name, where the device does not allow so many texels as the scene's textures have.
+void check_texels(const Scene& scene);
 
 class SceneBuffers {
  public:
@@ -32,7 +28,7 @@ class SceneBuffers {
   const std::vector<std::string>& warnings() const { return warnings_; }  // one sentence each
 
  private:
-  SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights);
+  SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable& lights, const TextureTable& textures);
 
   SceneFeatures features_;
   std::vector<std::string> warnings_;
@@ -42,6 +38,7 @@ class SceneBuffers {
   Buffer materials_;
   Buffer light_triangles_;
   Buffer lights_;
+  Buffer texels_;
 };
 
 }  // namespace qtrace::gpu

@@ -31,6 +31,8 @@ TexelFormat format_of(Texels texels) {
       return {GL_RGBA32F, 16};
     case Texels::uint4:
       return {GL_RGBA32UI, 16};
+    case Texels::half4:
+      return {GL_RGBA16F, 8};
     case Texels::none:
       break;
   }

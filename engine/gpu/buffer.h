@@ -9,7 +9,7 @@
 namespace qtrace::gpu {
 
 // Elements of a buffer that shaders fetch one by one (shaders/shared/fetch.glsl).
-enum class Texels { none, float1, uint1, float4, uint4 };
+enum class Texels { none, float1, uint1, float4, uint4, half4 };
 
 // llvmpipe allows 128 MiB of storage, and 2^27 texels.
 struct BufferUse {

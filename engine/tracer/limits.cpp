@@ -96,6 +96,7 @@ std::uint32_t most_taught_frames(const RenderSettings& settings) {
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   const auto pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
   gpu::check_buffer_size("first hits", pixels * sizeof(gpu::FirstHit));  // the largest of those with pixels
+  gpu::check_texels(scene);
   check_vertices(settings);
   const gpu::SceneFeatures features = gpu::find_features(scene);
   const RenderSettings effective = effective_settings(settings, features);

@@ -93,6 +93,21 @@ static_assert(static_cast<int>(gpu::Fetch::texture) == FETCH_TEXTURE &&
               static_cast<int>(gpu::Fetch::image) == FETCH_IMAGE &&
               static_cast<int>(gpu::Fetch::storage) == FETCH_STORAGE);
 
+// Of scenes (engine/scene/texture.h).
+static_assert(static_cast<int>(Wrap::repeat) == WRAP_REPEAT &&
+              static_cast<int>(Wrap::mirrored_repeat) == WRAP_MIRRORED_REPEAT &&
+              static_cast<int>(Wrap::clamp_to_edge) == WRAP_CLAMP_TO_EDGE);
+static_assert(static_cast<int>(TextureSlot::base_color) == TEXTURE_BASE_COLOR &&
+              static_cast<int>(TextureSlot::metallic_roughness) == TEXTURE_METALLIC_ROUGHNESS &&
+              static_cast<int>(TextureSlot::normal) == TEXTURE_NORMAL &&
+              static_cast<int>(TextureSlot::emission) == TEXTURE_EMISSION &&
+              static_cast<int>(TextureSlot::specular) == TEXTURE_SPECULAR &&
+              static_cast<int>(TextureSlot::specular_color) == TEXTURE_SPECULAR_COLOR &&
+              static_cast<int>(TextureSlot::transmission) == TEXTURE_TRANSMISSION &&
+              static_cast<int>(TextureSlot::clearcoat) == TEXTURE_CLEARCOAT &&
+              static_cast<int>(TextureSlot::clearcoat_roughness) == TEXTURE_CLEARCOAT_ROUGHNESS &&
+              static_cast<int>(TextureSlot::clearcoat_normal) == TEXTURE_CLEARCOAT_NORMAL);
+
 template <class Choice>
 std::string choice(Choice chosen) {
   static_assert(kIsNumbered<Choice>, "the enum and its numbers in shaders/shared/variants.glsl differ");
@@ -151,6 +166,9 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
   defines["BVH"] = choice(settings.bvh);
   defines["LIGHT_ACTIONS"] = "0";
   if (features.specular) defines["HAS_SPECULAR"] = "1";
+  if (features.textures != 0) defines["TEXTURES"] = std::to_string(features.textures);
+  if (features.tangents) defines["HAS_TANGENTS"] = "1";
+  if (features.colors) defines["HAS_COLORS"] = "1";
   if (std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
     defines["HAS_ENVIRONMENT"] = "1";
   if (has_table(settings)) define_table(defines, settings, features);

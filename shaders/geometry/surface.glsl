@@ -1,8 +1,11 @@
 // From a hit to a shading point.
 #include "geometry/intersect.glsl"
+#include "geometry/normal_map.glsl"
 #include "geometry/scene.glsl"
+#include "geometry/texture.glsl"
 #include "shared/math.glsl"
 #include "shared/structs.glsl"
+#include "shared/variants.glsl"
 
 struct Surface {
   vec3 position;
@@ -15,7 +18,34 @@ struct Surface {
   uint material;
   float offset;           // length by which rays leave the surface
   vec3 inwards;           // towards the middle of the triangle, about unit length
+#if TEXTURES != 0
+  vec4 uv;  // xy: set 0, zw: set 1
+#endif
+#ifdef HAS_COLORS
+  vec4 color;  // of its vertices
+#endif
 };
+
+// What textures and colours there need.
+void add_attributes(inout Surface s, Hit hit, vec3 direction) {
+#if TEXTURES != 0
+  s.uv = blended(corner_uv(hit.triangle, 0u), corner_uv(hit.triangle, 1u), corner_uv(hit.triangle, 2u), hit.barycentric);
+#endif
+#ifdef HAS_COLORS
+  s.color = blended(corner_color(hit.triangle, 0u), corner_color(hit.triangle, 1u), corner_color(hit.triangle, 2u),
+                    hit.barycentric);
+#endif
+#if HAS_TEXTURE(TEXTURE_NORMAL)
+  uint use = texture_use_of(s.material, uint(TEXTURE_NORMAL));
+  if (use != NO_TEXTURE) {
+    vec4 tangent = blended(corner_tangent(hit.triangle, 0u), corner_tangent(hit.triangle, 1u),
+                           corner_tangent(hit.triangle, 2u), hit.barycentric);
+    tangent.w = corner_tangent(hit.triangle, 0u).w;
+    vec3 bent = mapped_normal(use, s.uv, normal_scale_of(s.material).x, s.mesh_normal, tangent, s.back ? -1.0 : 1.0);
+    s.normal = adapted_normal(bent, s.geometric_normal, -direction);
+  }
+#endif
+}
 
 Surface surface_at(Hit hit, vec3 direction) {
   vec3 v0 = vertex_of(hit.triangle, 0u);
@@ -48,6 +78,7 @@ Surface surface_at(Hit hit, vec3 direction) {
   s.normal = side * s.mesh_normal;
   s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));
   s.inwards = scale * ((edge1 + edge2) * (1.0 / 3.0) - (s.position - v0));
+  add_attributes(s, hit, direction);
   return s;
 }
 
@@ -61,7 +92,10 @@ vec3 ray_origin(Surface s, vec3 direction) {
 // Radiance that the surface emits towards its viewer; from the front face, unless double-sided.
 vec3 emitted_radiance(Surface s) {
   vec4 emission = emission_of(s.material);
-  return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;
+#if HAS_TEXTURE(TEXTURE_EMISSION)
+  emission.rgb *= factor_at(s.material, uint(TEXTURE_EMISSION), s.uv).rgb;
+#endif
+  return s.back && emission.w == EMITS_FRONT ? vec3(0.0) : emission.rgb;
 }
 
 // Orthonormal basis about n: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).

@@ -2,9 +2,11 @@
 // of its triangles by power; then a point uniform on it.
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
+#include "geometry/texture.glsl"
 #include "sampling/random.glsl"
 #include "shared/parameters.glsl"
 #include "shared/structs.glsl"
+#include "shared/variants.glsl"
 #if LIGHT_ACTIONS > 0
 #include "learning/actions.glsl"
 #include "learning/table.glsl"
@@ -66,6 +68,18 @@ float light_pdf(int cell, uint index, float t, vec3 direction) {
   return light_probability(cell, triangle.link.y) * point_pdf(triangle, t, direction);
 }
 
+// Radiance of a point of a light, where its second and third corner count for `b`.
+vec3 light_radiance(LightTriangle light, vec2 b) {
+  vec3 radiance = light.radiance.rgb;
+#if HAS_TEXTURE(TEXTURE_EMISSION)
+  uint triangle = light.link.w;
+  uint material = floatBitsToUint(shade_of(triangle, 0u).w);
+  vec4 uv = blended(corner_uv(triangle, 0u), corner_uv(triangle, 1u), corner_uv(triangle, 2u), b);
+  radiance *= factor_at(material, uint(TEXTURE_EMISSION), uv).rgb;
+#endif
+  return radiance;
+}
+
 // pdf is 0 where the point cannot send light here.
 LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
   LightSample result;
@@ -83,7 +97,7 @@ LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
   result.direction = to_point / t;
   float facing = -dot(normal, result.direction);
   bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != 0.0));
-  result.radiance = lit ? triangle.radiance.rgb : vec3(0.0);
+  result.radiance = lit ? light_radiance(triangle, root * vec2(1.0 - along, along)) : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
   // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
   // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.

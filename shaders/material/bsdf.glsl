@@ -13,14 +13,38 @@ struct Bsdf {
 #endif
 };
 
-Bsdf bsdf_of(uint material) {
+Bsdf bsdf_of(Surface s) {
   Bsdf b;
-  vec4 base = base_color_of(material);
+  vec4 base = base_color_of(s.material);
+#if HAS_TEXTURE(TEXTURE_BASE_COLOR)
+  base.rgb *= factor_at(s.material, uint(TEXTURE_BASE_COLOR), s.uv).rgb;
+#endif
+#ifdef HAS_COLORS
+  base.rgb *= s.color.rgb;
+#endif
   b.base_color = base.rgb;
 #ifdef HAS_SPECULAR
   b.metallic = base.w;
-  b.dielectric_f0 = dielectric_f0_of(material);
-  b.alpha = alpha_of(material);
+  b.dielectric_f0 = dielectric_f0_of(s.material);
+  vec4 roughness = roughness_of(s.material);
+  b.alpha = roughness.x;
+#if HAS_TEXTURE(TEXTURE_METALLIC_ROUGHNESS)
+  vec4 factors = factor_at(s.material, uint(TEXTURE_METALLIC_ROUGHNESS), s.uv);
+  b.metallic *= factors.b;
+  float rough = max(roughness.y * factors.g, LEAST_ROUGHNESS);
+  b.alpha = rough * rough;
+#endif
+#if HAS_TEXTURE(TEXTURE_SPECULAR) || HAS_TEXTURE(TEXTURE_SPECULAR_COLOR)
+  // KHR_materials_specular.
+  vec4 specular = specular_of(s.material);
+#if HAS_TEXTURE(TEXTURE_SPECULAR)
+  specular.w *= factor_at(s.material, uint(TEXTURE_SPECULAR), s.uv).a;
+#endif
+#if HAS_TEXTURE(TEXTURE_SPECULAR_COLOR)
+  specular.rgb *= factor_at(s.material, uint(TEXTURE_SPECULAR_COLOR), s.uv).rgb;
+#endif
+  b.dielectric_f0 = vec4(min(specular.rgb, vec3(1.0)) * specular.w, specular.w);
+#endif
 #endif
   return b;
 }

@@ -2,9 +2,9 @@
 // What the ray through each pixel's centre meets first.
 #include "geometry/camera.glsl"
 #include "geometry/intersect.glsl"
-#include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
 #include "geometry/traverse.glsl"
+#include "material/bsdf.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
 #include "shared/parameters.glsl"
@@ -21,7 +21,7 @@ void main() {
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (hit.triangle != NO_TRIANGLE) {
     Surface s = surface_at(hit, ray.direction);
-    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(base_color_of(s.material).rgb, 1.0),
+    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(bsdf_of(s).base_color, 1.0),
                      vec4(emitted_radiance(s), 1.0));
   }
   first_hits[pixel.y * parameters.image_size.x + pixel.x] = first;

@@ -70,7 +70,7 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
 Event event_at(inout Path path, Hit hit) {
   Event e;
   e.surface = surface_at(hit, path.direction);
-  e.bsdf = bsdf_of(e.surface.material);
+  e.bsdf = bsdf_of(e.surface);
   e.wo = -path.direction;
   return e;
 }

@@ -30,7 +30,8 @@ struct TriangleShape {  // vertices, as the neighbours have them to the bit
   vec4 vertex2;
 };
 
-// In the same order and way; what a hit reads.
+// In the same order and way; what a hit reads. In a scene that has them, further vec4 of the corner follow each of these
+// (CORNER_VEC4S in scene.glsl): texture coordinates (xy: set 0, zw: set 1), its tangent, its colour.
 struct TriangleShade {
   vec4 normal0;  // xyz: vertex normal, w: bits of the material
   vec4 normal1;  // w: bits of the object
@@ -40,9 +41,21 @@ struct TriangleShade {
 // Materials, lights and their triangles are fetched member by member, too (scene.glsl).
 struct Material {      // glTF metallic-roughness
   vec4 base_color;      // rgb, w: metallic
-  vec4 emission;        // rgb: radiance, w: 1 where the back face emits too
+  vec4 emission;        // rgb: radiance, w: EMITS_...
   vec4 dielectric_f0;   // rgb: reflectance of the dielectric lobe at normal incidence, w: at grazing incidence
-  vec4 roughness;       // x: alpha = roughness^2 (y, z, w: unused)
+  vec4 roughness;       // x: alpha = roughness^2, y: roughness, z: opacity, w: cutoff of the opacity, or an ALPHA_...
+  vec4 specular;        // rgb: F0 of the index of refraction times its colour, where it may be above 1, w: strength
+  vec4 normal_scale;    // x: of the texture of normals, y: of the coat's (z, w: unused)
+  uvec4 textures0;      // of TEXTURE_BASE_COLOR to TEXTURE_EMISSION: elements at which their TextureUse begins, or NO_TEXTURE
+  uvec4 textures1;      // of TEXTURE_SPECULAR to TEXTURE_CLEARCOAT
+  uvec4 textures2;      // of TEXTURE_CLEARCOAT_ROUGHNESS and TEXTURE_CLEARCOAT_NORMAL
+};
+
+// An image as a material uses it. They stand behind the materials, in the same buffer.
+struct TextureUse {
+  vec4 u_row;  // xyz: column of texels = dot(this, (u, v, 1)), whole numbers at centres; w: bits of the first texel
+  vec4 v_row;  // xyz: row, likewise; w: bits of width - 1 | (height - 1) << TEXTURE_SIDE_BITS
+  uvec4 modes;  // x, y: WRAP_... of columns and rows, z: 1 where the nearest texel is meant, w: set of coordinates
 };
 
 // An emitting triangle, in the order of the lights that they belong to. Chosen within its light in proportion
@@ -53,7 +66,7 @@ struct LightTriangle {
   vec4 edge2;     // w: probability of choosing it within its light / its area (per area)
   vec4 normal;    // xyz: unit, out of the front face
   vec4 radiance;  // rgb, w: 1 where the back face emits too
-  uvec4 link;     // x: alias, y: light, z: alias threshold, as a part of 2^32
+  uvec4 link;     // x: alias, y: light, z: alias threshold, as a part of 2^32, w: triangle in the order of the leaves
 };
 
 // A light: emitting triangles of one object that are connected. What next event estimation chooses among.
@@ -251,7 +264,8 @@ const int UNIT_SAMPLES = 11;
 const int UNIT_OUTLIERS = 12;
 const int UNIT_SUMS = 13;
 const int UNIT_BSDF_SHARES = 14;
-const int FETCHED_UNITS = 15;
+const int UNIT_TEXELS = 15;
+const int FETCHED_UNITS = 16;
 
 const int LOCATION_FRAME = 0;    // uniform: number of the frame, from 1
 const int LOCATION_TEACHES = 1;  // uniform: whether the frame gathers targets for the table
@@ -267,6 +281,9 @@ const uint BLOCK_TWO_RAY = 3u;
 const uint BLOCK_MORE = 4u;
 const uint BLOCKS_PER_EVENT = 4u;
 
+// Below this the GGX lobe is narrower than single precision resolves.
+const float LEAST_ROUGHNESS = 0.03f;
+
 // Rays leave a surface by this fraction of its largest coordinate: 32 units in the last place of a float,
 // above the rounding of interpolating a point and of the intersection test, which both grow with the
 // coordinates.
@@ -275,6 +292,12 @@ const float OFFSET_FRACTION = 32.0f / 16777216.0f;
 const uint NO_NODE = 0xffffffffu;
 const uint NO_TRIANGLE = 0xffffffffu;
 const uint NO_LIGHT = 0xffffffffu;
+const uint NO_TEXTURE = 0xffffffffu;
+const uint TEXTURE_SIDE_BITS = 16u;
+const float ALPHA_OPAQUE = -1.0f;  // in Material::roughness.w
+const float ALPHA_BLEND = -2.0f;
+const float EMITS_FRONT = 0.0f;  // in Material::emission.w and LightTriangle::radiance.w
+const float EMITS_BOTH = 1.0f;
 const int NO_CELL = -1;             // of a hit
 const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table

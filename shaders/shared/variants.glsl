@@ -40,3 +40,21 @@
 #define FETCH_TEXTURE 0
 #define FETCH_IMAGE 1
 #define FETCH_STORAGE 2
+// Textures by what they are multiplied with (engine/scene/texture.h). TEXTURES: one bit for each that the scene has.
+#define TEXTURE_BASE_COLOR 0
+#define TEXTURE_METALLIC_ROUGHNESS 1
+#define TEXTURE_NORMAL 2
+#define TEXTURE_EMISSION 3
+#define TEXTURE_SPECULAR 4
+#define TEXTURE_SPECULAR_COLOR 5
+#define TEXTURE_TRANSMISSION 6
+#define TEXTURE_CLEARCOAT 7
+#define TEXTURE_CLEARCOAT_ROUGHNESS 8
+#define TEXTURE_CLEARCOAT_NORMAL 9
+#ifndef TEXTURES
+#define TEXTURES 0
+#endif
+#define HAS_TEXTURE(slot) (((TEXTURES) >> (slot)) & 1)
+#define WRAP_REPEAT 0
+#define WRAP_MIRRORED_REPEAT 1
+#define WRAP_CLAMP_TO_EDGE 2

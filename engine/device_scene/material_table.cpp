@@ -1,0 +1,79 @@
+#include "engine/device_scene/material_table.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace qtrace::gpu {
+namespace {
+
+// Of a dielectric at normal incidence (KHR_materials_ior; 1.5 in glTF 2.0, Appendix B). An index of 0 stands
+// for one without bound.
+float normal_reflectance(float ior) {
+  if (ior == 1.5F) return 0.04F;
+  const float root = ior == 0 ? 1.0F : (ior - 1) / (ior + 1);
+  return root * root;
+}
+
+float cutoff_of(const qtrace::Material& m) {
+  switch (m.alpha_mode) {
+    case AlphaMode::mask:
+      return m.alpha_cutoff;
+    case AlphaMode::blend:
+      return ALPHA_BLEND;
+    case AlphaMode::opaque:
+      break;
+  }
+  return ALPHA_OPAQUE;
+}
+
+// KHR_materials_specular: F0 = min(F0 of the index * colour, 1) * strength, F90 = strength.
+gpu::Material pack_material(const qtrace::Material& m) {
+  const float roughness = std::max(m.roughness, LEAST_ROUGHNESS);
+  const glm::vec3 f0 = normal_reflectance(m.ior) * m.specular_color;
+  gpu::Material packed{};
+  packed.base_color = vec4(m.base_color, m.metallic);
+  packed.emission = vec4(m.emission, m.double_sided ? EMITS_BOTH : EMITS_FRONT);
+  packed.dielectric_f0 = vec4(glm::min(f0, glm::vec3(1.0F)) * m.specular, m.specular);
+  packed.roughness = vec4(roughness * roughness, m.roughness, m.opacity, cutoff_of(m));
+  packed.specular = vec4(f0, m.specular);
+  packed.normal_scale = vec4(m.normal_scale, m.clearcoat_normal_scale, 0, 0);
+  return packed;
+}
+
+template <class T>
+void append(std::vector<vec4>& all, const T& packed) {
+  static_assert(sizeof(T) % sizeof(vec4) == 0);
+  all.resize(all.size() + sizeof(T) / sizeof(vec4));
+  std::memcpy(&*(all.end() - static_cast<std::ptrdiff_t>(sizeof(T) / sizeof(vec4))), &packed, sizeof(T));
+}
+
+// The element at which each slot's TextureUse begins.
+void add_textures(gpu::Material& packed, const std::array<std::uint32_t, kTextureSlots>& uses,
+                  std::size_t materials) {
+  std::array<std::uint32_t, 12> elements{};
+  elements.fill(NO_TEXTURE);
+  const std::size_t first = materials * sizeof(gpu::Material) / sizeof(vec4);
+  for (std::size_t slot = 0; slot < kTextureSlots; ++slot) {
+    if (uses[slot] == NO_TEXTURE) continue;
+    elements.at(slot) = static_cast<std::uint32_t>(first + uses[slot] * sizeof(TextureUse) / sizeof(vec4));
+  }
+  static_assert(offsetof(gpu::Material, textures2) == offsetof(gpu::Material, textures0) + 2 * sizeof(uvec4));
+  std::memcpy(&packed.textures0, elements.data(), sizeof(elements));
+}
+
+}  // namespace
+
+std::vector<vec4> pack_materials(const Scene& scene, const TextureTable& textures) {
+  std::vector<vec4> all;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    gpu::Material packed = pack_material(scene.materials[i]);
+    add_textures(packed, textures.of[i], scene.materials.size());
+    append(all, packed);
+  }
+  for (const TextureUse& use : textures.uses) append(all, use);
+  return all;
+}
+
+}  // namespace qtrace::gpu
