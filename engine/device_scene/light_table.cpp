@@ -1,8 +1,11 @@
 #include "engine/device_scene/light_table.h"
 
+#include "engine/accel/bounds.h"
 #include "engine/device_scene/alias_table.h"
 #include "engine/device_scene/emitters.h"
 #include "engine/device_scene/light_groups.h"
+#include "engine/device_scene/punctual_lights.h"
+#include "engine/device_scene/sky_table.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,7 +15,7 @@
 namespace qtrace::gpu {
 namespace {
 
-double power_of(const Scene& scene, const Emitters& emitters, std::uint32_t triangle) {
+double power_of_lamp(const Scene& scene, const Emitters& emitters, std::uint32_t triangle) {
   const Triangle& t = scene.triangles[triangle];
   return emitters.mean_radiance(triangle) * area_of(t) * (scene.materials[t.material].double_sided ? 2 : 1);
 }
@@ -69,7 +72,7 @@ Light make_light(const Scene& scene, const std::vector<std::uint32_t>& triangles
 double add_light(LightTable& table, const Scene& scene, const Emitters& emitters,
                  const std::vector<std::uint32_t>& triangles) {
   std::vector<double> powers;
-  for (const std::uint32_t i : triangles) powers.push_back(power_of(scene, emitters, i));
+  for (const std::uint32_t i : triangles) powers.push_back(power_of_lamp(scene, emitters, i));
   const double power = sum_of(powers);
   const auto first = static_cast<uint>(table.triangles.size());
   const std::vector<AliasSlot> slots = build_aliases(powers);
@@ -87,7 +90,53 @@ double add_light(LightTable& table, const Scene& scene, const Emitters& emitters
   return power;
 }
 
+void add_lights_without_surface(LightTable& table, const Scene& scene, std::vector<double>& powers) {
+  const double radius = scene_radius(scene);
+  const auto add = [&](const Light& light, double power, double radiance) {
+    table.lights.push_back(light);
+    powers.push_back(power);
+    table.brightest = std::max(table.brightest, static_cast<float>(radiance));
+  };
+  for (const PunctualLight& light : scene.lights) {
+    if (light.intensity == glm::vec3(0)) continue;
+    add(pack_punctual(light), power_of(light, radius), typical_radiance(light, radius));
+  }
+  if (!scene.environment) return;
+  SkyTable sky = build_sky_table(*scene.environment);
+  if (sky.texels.empty()) return;
+  table.sky = std::move(sky.texels);
+  Light light{};
+  light.choice.z = LIGHT_SKY;
+  light.axis.w = static_cast<float>(sky.mean_radiance);
+  add(light, 4 * sky.mean_radiance * radius * radius, sky.mean_radiance);
+}
+
+void set_choices(LightTable& table, LightChoice choice, const std::vector<double>& powers) {
+  const double total = sum_of(powers);
+  const std::vector<double> chances =
+      choice == LightChoice::uniform ? std::vector<double>(powers.size(), 1.0) : powers;
+  const double all = sum_of(chances);
+  const std::vector<AliasSlot> slots = build_aliases(chances);
+  for (std::size_t i = 0; i < table.lights.size(); ++i) {
+    Light& light = table.lights[i];
+    light.choice.x = static_cast<float>(chances[i] / all);
+    light.choice.y = static_cast<float>(powers[i] / total);
+    light.link.x = slots[i].alias;
+    light.link.z = slots[i].threshold;
+    light.axis.w /= table.brightest;
+  }
+}
+
 }  // namespace
+
+double scene_radius(const Scene& scene) {
+  Bounds bounds;
+  for (const Triangle& t : scene.triangles) bounds.add(bounds_of(t));
+  for (const PunctualLight& light : scene.lights) {
+    if (light.kind != PunctualLight::Kind::directional) bounds.add(light.position);
+  }
+  return bounds.lo.x > bounds.hi.x ? 1 : 0.5 * glm::length(glm::dvec3(bounds.hi) - glm::dvec3(bounds.lo));
+}
 
 float ray_offset(const Triangle& triangle) {
   const auto& p = triangle.position;
@@ -103,18 +152,8 @@ LightTable build_light_table(const Scene& scene, LightChoice choice) {
   for (const auto& triangles : connected_groups(scene, find_emitters(scene, emitters))) {
     powers.push_back(add_light(table, scene, emitters, triangles));
   }
-  const double total = sum_of(powers);
-  const std::vector<double> chances =
-      choice == LightChoice::uniform ? std::vector<double>(powers.size(), 1.0) : powers;
-  const double all = sum_of(chances);
-  const std::vector<AliasSlot> slots = build_aliases(chances);
-  for (std::size_t i = 0; i < table.lights.size(); ++i) {
-    Light& light = table.lights[i];
-    light.choice = vec4(static_cast<float>(chances[i] / all), static_cast<float>(powers[i] / total), 0, 0);
-    light.link.x = slots[i].alias;
-    light.link.z = slots[i].threshold;
-    light.axis.w /= table.brightest;
-  }
+  add_lights_without_surface(table, scene, powers);
+  set_choices(table, choice, powers);
   return table;
 }
 

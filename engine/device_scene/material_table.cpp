@@ -1,5 +1,7 @@
 #include "engine/device_scene/material_table.h"
 
+#include "engine/device_scene/vec4s.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -42,22 +44,15 @@ gpu::Material pack_material(const qtrace::Material& m) {
   return packed;
 }
 
-template <class T>
-void append(std::vector<vec4>& all, const T& packed) {
-  static_assert(sizeof(T) % sizeof(vec4) == 0);
-  all.resize(all.size() + sizeof(T) / sizeof(vec4));
-  std::memcpy(&*(all.end() - static_cast<std::ptrdiff_t>(sizeof(T) / sizeof(vec4))), &packed, sizeof(T));
-}
-
 // The element at which each slot's TextureUse begins.
 void add_textures(gpu::Material& packed, const std::array<std::uint32_t, kTextureSlots>& uses,
                   std::size_t materials) {
   std::array<std::uint32_t, 12> elements{};
   elements.fill(NO_TEXTURE);
-  const std::size_t first = materials * sizeof(gpu::Material) / sizeof(vec4);
+  const std::size_t first = materials * vec4s_of<gpu::Material>();
   for (std::size_t slot = 0; slot < kTextureSlots; ++slot) {
     if (uses[slot] == NO_TEXTURE) continue;
-    elements.at(slot) = static_cast<std::uint32_t>(first + uses[slot] * sizeof(TextureUse) / sizeof(vec4));
+    elements.at(slot) = static_cast<std::uint32_t>(first + uses[slot] * vec4s_of<TextureUse>());
   }
   static_assert(offsetof(gpu::Material, textures2) == offsetof(gpu::Material, textures0) + 2 * sizeof(uvec4));
   std::memcpy(&packed.textures0, elements.data(), sizeof(elements));
@@ -70,9 +65,9 @@ std::vector<vec4> pack_materials(const Scene& scene, const TextureTable& texture
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     gpu::Material packed = pack_material(scene.materials[i]);
     add_textures(packed, textures.of[i], scene.materials.size());
-    append(all, packed);
+    append_vec4s(all, packed);
   }
-  for (const TextureUse& use : textures.uses) append(all, use);
+  for (const TextureUse& use : textures.uses) append_vec4s(all, use);
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "engine/device_scene/light_table.h"
 #include "engine/device_scene/material_table.h"
+#include "engine/device_scene/vec4s.h"
 
 #include <bit>
 #include <utility>
@@ -81,6 +82,15 @@ std::vector<LightTriangle> with_places(const LightTable& lights, const Bvh& bvh)
   return triangles;
 }
 
+// The environment's texels behind the lights.
+std::vector<vec4> pack_lights(const LightTable& lights) {
+  std::vector<vec4> all;
+  all.reserve(lights.lights.size() * vec4s_of<Light>() + lights.sky.size() * vec4s_of<SkyTexel>());
+  for (const Light& light : lights.lights) append_vec4s(all, light);
+  for (const SkyTexel& texel : lights.sky) append_vec4s(all, texel);
+  return all;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, LightChoice lights)
@@ -94,7 +104,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
       shades_("triangle normals", pack_shades(scene, bvh, lights, features_), only_fetched(Texels::float4)),
       materials_("materials", pack_materials(scene, textures), only_fetched(Texels::float4)),
       light_triangles_("light triangles", with_places(lights, bvh), only_fetched(Texels::float4)),
-      lights_("lights", lights.lights, only_fetched(Texels::float4)),
+      lights_("lights", pack_lights(lights), only_fetched(Texels::float4)),
       texels_(kTexels, textures.texels, only_fetched(Texels::half4)) {
   for (const qtrace::Material& m : scene.materials) {
     if (!has_specular_lobe(m) || m.roughness >= LEAST_ROUGHNESS) continue;

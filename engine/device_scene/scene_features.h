@@ -12,8 +12,13 @@ struct SceneFeatures {
   uint textures = 0;      // a bit for each TextureSlot that some material uses
   bool tangents = false;  // of textures of normals
   bool colors = false;    // of vertices
-  uint lights = 0;        // connected emitting surfaces
-  float brightest = 0;    // mean radiance of the brightest
+  bool alpha = false;     // surfaces that rays may pass
+  uint lights = 0;        // of every kind, the environment's image among them
+  bool punctual = false;  // lights without a surface
+  glm::uvec2 sky{0};    // columns and rows of the environment's image, which is the last light; 0 without one
+  float sky_turn = 0;   // its rotation, as a part of all longitudes
+  float reach = 0;      // a length that leads out of the scene
+  float brightest = 0;  // mean radiance of the brightest
 };
 
 SceneFeatures find_features(const Scene& scene);

@@ -83,6 +83,16 @@ void check_vertices(const RenderSettings& settings) {
       kMostVertices, settings.max_bounces);
 }
 
+// Without light samples they would be left out of the integral in silence.
+void check_punctual(const Scene& scene, const RenderSettings& settings) {
+  if (settings.nee != Nee::none || scene.lights.empty()) return;
+  const PunctualLight& light = scene.lights.front();
+  fail(
+      "the light '{}' of the scene {} has no surface that a path could meet, and nee is none; one_ray or "
+      "two_ray would be right",
+      light.name, scene.name);
+}
+
 }  // namespace
 
 static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) &&
@@ -96,6 +106,7 @@ std::uint32_t most_taught_frames(const RenderSettings& settings) {
 void check_limits(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   const auto pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
   gpu::check_buffer_size("first hits", pixels * sizeof(gpu::FirstHit));  // the largest of those with pixels
+  check_punctual(scene, settings);
   gpu::check_texels(scene);
   check_vertices(settings);
   const gpu::SceneFeatures features = gpu::find_features(scene);

@@ -46,6 +46,10 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.initial_value = real(rl.initial_value);
   p.shrinkage = real(rl.shrinkage);
   p.roulette_scale = real(rl.roulette_scale);
+  p.sky_size = features.sky;
+  p.sky_first = features.lights * static_cast<gpu::uint>(sizeof(gpu::Light) / sizeof(gpu::vec4));
+  p.sky_turn = features.sky_turn;
+  p.reach = features.reach;
   return p;
 }
 

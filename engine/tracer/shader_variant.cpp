@@ -169,7 +169,14 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
   if (features.textures != 0) defines["TEXTURES"] = std::to_string(features.textures);
   if (features.tangents) defines["HAS_TANGENTS"] = "1";
   if (features.colors) defines["HAS_COLORS"] = "1";
-  if (std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
+  if (features.alpha) defines["HAS_ALPHA"] = "1";
+  if (features.punctual) defines["HAS_PUNCTUAL"] = "1";
+  const bool has_sky = features.sky.x > 0;
+  if (has_sky) {
+    defines["HAS_SKY"] = "1";
+    defines["SKY_LIGHT"] = std::to_string(features.lights - 1) + "u";
+  }
+  if (has_sky || std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
     defines["HAS_ENVIRONMENT"] = "1";
   if (has_table(settings)) define_table(defines, settings, features);
   return defines;

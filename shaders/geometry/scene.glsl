@@ -68,10 +68,14 @@ uint texture_use_of(uint material, uint slot) {
   return floatBitsToUint(material_member(material, 6u + slot / 4u))[slot % 4u];
 }
 
-vec4 light_choice(uint light) { return fetch(lights, 4u * light); }
-uvec4 light_link(uint light) { return floatBitsToUint(fetch(lights, 4u * light + 1u)); }
-vec4 light_centre(uint light) { return fetch(lights, 4u * light + 2u); }
-vec4 light_axis(uint light) { return fetch(lights, 4u * light + 3u); }
+const uint LIGHT_MEMBERS = 6u;
+vec4 light_member(uint light, uint member) { return fetch(lights, LIGHT_MEMBERS * light + member); }
+vec4 light_choice(uint light) { return light_member(light, 0u); }
+uvec4 light_link(uint light) { return floatBitsToUint(light_member(light, 1u)); }
+vec4 light_centre(uint light) { return light_member(light, 2u); }
+vec4 light_axis(uint light) { return light_member(light, 3u); }
+vec4 light_intensity(uint light) { return light_member(light, 4u); }
+vec4 light_cone(uint light) { return light_member(light, 5u); }
 
 const uint LIGHT_TRIANGLE_MEMBERS = 6u;
 LightTriangle light_triangle(uint i) {

@@ -26,15 +26,17 @@ struct Surface {
 #endif
 };
 
-// What textures and colours there need.
-void add_attributes(inout Surface s, Hit hit, vec3 direction) {
+// What textures and colours of its vertices need, where the second and third corner count for `b`.
+void add_corner_values(inout Surface s, uint triangle, vec2 b) {
 #if TEXTURES != 0
-  s.uv = blended(corner_uv(hit.triangle, 0u), corner_uv(hit.triangle, 1u), corner_uv(hit.triangle, 2u), hit.barycentric);
+  s.uv = blended(corner_uv(triangle, 0u), corner_uv(triangle, 1u), corner_uv(triangle, 2u), b);
 #endif
 #ifdef HAS_COLORS
-  s.color = blended(corner_color(hit.triangle, 0u), corner_color(hit.triangle, 1u), corner_color(hit.triangle, 2u),
-                    hit.barycentric);
+  s.color = blended(corner_color(triangle, 0u), corner_color(triangle, 1u), corner_color(triangle, 2u), b);
 #endif
+}
+
+void bend_normal(inout Surface s, Hit hit, vec3 direction) {
 #if HAS_TEXTURE(TEXTURE_NORMAL)
   uint use = texture_use_of(s.material, uint(TEXTURE_NORMAL));
   if (use != NO_TEXTURE) {
@@ -78,7 +80,8 @@ Surface surface_at(Hit hit, vec3 direction) {
   s.normal = side * s.mesh_normal;
   s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));
   s.inwards = scale * ((edge1 + edge2) * (1.0 / 3.0) - (s.position - v0));
-  add_attributes(s, hit, direction);
+  add_corner_values(s, hit.triangle, b);
+  bend_normal(s, hit, direction);
   return s;
 }
 

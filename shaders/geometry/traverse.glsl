@@ -17,11 +17,16 @@
 #include "geometry/traverse_ordered.glsl"
 #endif
 
-// The nearest hit at t in (0, infinity); `direction` need not be unit.
-Hit closest_hit(vec3 origin, vec3 direction) {
-  Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));
+// The nearest hit at t in (0, most); `direction` need not be unit.
+Hit nearest_hit(vec3 origin, vec3 direction, float most) {
+  Hit hit = Hit(most, NO_TRIANGLE, vec2(0.0));
   traverse(origin, direction, false, hit);
   return hit;
+}
+
+// At any distance.
+Hit closest_hit(vec3 origin, vec3 direction) {
+  return nearest_hit(origin, direction, INFINITY);
 }
 
 // Whether anything stands at t in (0, 1).

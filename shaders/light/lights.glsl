@@ -1,8 +1,11 @@
-// Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then one
-// of its triangles by power; then a point uniform on it.
+// Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then, of a surface,
+// one of its triangles by power and a point uniform on it; of the sky, a direction.
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
 #include "geometry/texture.glsl"
+#include "light/punctual.glsl"
+#include "light/sky.glsl"
+#include "material/opacity.glsl"
 #include "sampling/random.glsl"
 #include "shared/parameters.glsl"
 #include "shared/structs.glsl"
@@ -20,6 +23,9 @@ struct LightSample {
   uint light;
   vec3 origin;        // shadow ray, from the light: neighbouring ones share more of their way than from the surface
   vec3 segment;       // to the surface, over t in (0, 1)
+#ifdef HAS_PUNCTUAL
+  bool is_punctual;   // paths cannot meet it
+#endif
 };
 
 // Walker's alias method: one look-up whatever the number of slots. The product of word and count holds the
@@ -71,20 +77,20 @@ float light_pdf(int cell, uint index, float t, vec3 direction) {
 // Radiance of a point of a light, where its second and third corner count for `b`.
 vec3 light_radiance(LightTriangle light, vec2 b) {
   vec3 radiance = light.radiance.rgb;
+#if HAS_TEXTURE(TEXTURE_EMISSION) || defined(HAS_ALPHA)
+  Surface s;
+  s.material = floatBitsToUint(shade_of(light.link.w, 0u).w);
+  add_corner_values(s, light.link.w, b);
 #if HAS_TEXTURE(TEXTURE_EMISSION)
-  uint triangle = light.link.w;
-  uint material = floatBitsToUint(shade_of(triangle, 0u).w);
-  vec4 uv = blended(corner_uv(triangle, 0u), corner_uv(triangle, 1u), corner_uv(triangle, 2u), b);
-  radiance *= factor_at(material, uint(TEXTURE_EMISSION), uv).rgb;
+  radiance *= factor_at(s.material, uint(TEXTURE_EMISSION), s.uv).rgb;
+#endif
+  radiance *= opacity_of(s);
 #endif
   return radiance;
 }
 
-// pdf is 0 where the point cannot send light here.
-LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
-  LightSample result;
-  result.light = choose_light(cell, bits.x);
-  result.probability = light_probability(cell, result.light);
+// Of the surface of `result.light`.
+void sample_lamp(inout LightSample result, Surface s, uvec4 bits, uint triangle_word) {
   LightTriangle triangle = light_triangle(choose_triangle(result.light, triangle_word));
   float root = sqrt(to_unit(bits.y));
   float along = to_unit(bits.z);
@@ -96,7 +102,7 @@ LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
 
   result.direction = to_point / t;
   float facing = -dot(normal, result.direction);
-  bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != 0.0));
+  bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != EMITS_FRONT));
   result.radiance = lit ? light_radiance(triangle, root * vec2(1.0 - along, along)) : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
   // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
@@ -104,5 +110,50 @@ LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
   result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.segment = ray_origin(s, result.direction) - result.origin;
+}
+
+#ifdef HAS_SKY
+void sample_light_of_sky(inout LightSample result, Surface s, uvec4 bits, uint triangle_word) {
+  SkySample sky = sample_sky(uvec3(triangle_word, bits.yz));
+  result.direction = sky.direction;
+  result.radiance = sky_radiance(sky.direction);
+  result.pdf = result.probability * sky.pdf;
+  result.origin = ray_origin(s, sky.direction);
+  result.segment = parameters.reach * sky.direction;
+}
+#endif
+
+#ifdef HAS_PUNCTUAL
+// Its radiance over its density is the irradiance that it brings.
+void sample_punctual(inout LightSample result, Surface s, float kind) {
+  vec3 way = to_punctual(result.light, kind, s.position);
+  float t = length(way);
+  result.direction = way / t;
+  result.radiance = t > 0.0 ? punctual_irradiance(result.light, kind, result.direction, t) : vec3(0.0);
+  result.pdf = t > 0.0 ? result.probability : 0.0;
+  s.offset = max(s.offset, OFFSET_FRACTION * t);
+  result.origin = s.position + way;
+  result.segment = ray_origin(s, result.direction) - result.origin;
+}
+#endif
+
+// pdf is 0 where the point cannot send light here.
+LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
+  LightSample result;
+  result.light = choose_light(cell, bits.x);
+  result.probability = light_probability(cell, result.light);
+#if defined(HAS_SKY) || defined(HAS_PUNCTUAL)
+  float kind = light_choice(result.light).z;
+  if (kind == LIGHT_SURFACE) sample_lamp(result, s, bits, triangle_word);
+#ifdef HAS_SKY
+  if (kind == LIGHT_SKY) sample_light_of_sky(result, s, bits, triangle_word);
+#endif
+#ifdef HAS_PUNCTUAL
+  result.is_punctual = is_punctual(kind);
+  if (result.is_punctual) sample_punctual(result, s, kind);
+#endif
+#else
+  sample_lamp(result, s, bits, triangle_word);
+#endif
   return result;
 }

@@ -1,11 +1,12 @@
 // Next event estimation: direct light of a scattering event by sampling the lights.
-#include "geometry/intersect.glsl"
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/traverse.glsl"
 #include "light/lights.glsl"
+#include "light/shadow.glsl"
+#include "light/sky.glsl"
 #include "material/bsdf.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
@@ -22,6 +23,14 @@
 float power_heuristic(float pdf, float other) {
   float ratio = other / pdf;
   return 1.0 / (1.0 + ratio * ratio);
+}
+
+// Weight of a light sample, both densities without the choice of the light or both with it.
+float light_weight(LightSample light, float pdf, float other) {
+#ifdef HAS_PUNCTUAL
+  if (light.is_punctual) return 1.0;
+#endif
+  return power_heuristic(pdf, other);
 }
 
 // The target of a light's value, of light samples that are hidden, too: the square of what the light contributes once it
@@ -41,22 +50,13 @@ LightSample sample_event_light(Event e, EventBits bits) {
   return sample_light(e.surface, cell_of(e), bits.light, bits.more.x);
 }
 
-// Goswami 2020 asks by a closest hit.
-bool reaches_light(LightSample light) {
-#if NEE == NEE_TWO_RAY
-  return closest_hit(light.origin, light.segment).t >= 1.0;
-#else
-  return !is_occluded(light.origin, light.segment);
-#endif
-}
-
 // What a light sample brings, before MIS: zero where it is hidden.
 vec3 light_contribution(Event e, LightSample light, inout Tally tally) {
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
   vec3 contribution = vec3(0.0);
   if (light.pdf > 0.0 && reflected != vec3(0.0)) {
-    ++tally.rays;
-    if (reaches_light(light)) contribution = reflected / light.pdf;
+    float reaching = transmittance(light.origin, light.segment, tally.rays);
+    if (reaching > 0.0) contribution = reflected / light.pdf * reaching;
   }
   gather_light(e, light, contribution, tally);
   return contribution;
@@ -71,7 +71,7 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
   if (contribution == vec3(0.0)) return contribution;
-  return contribution * power_heuristic(light.pdf, direction_pdf(e, light.direction));
+  return contribution * light_weight(light, light.pdf, direction_pdf(e, light.direction));
 }
 
 // Weight of emission that the path's own ray met, which left a surface in `cell`.
@@ -79,24 +79,44 @@ float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int ce
   return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));
 }
 
+// Of the environment's radiance, likewise.
+float environment_weight(vec3 direction, float path_pdf, int cell) {
+#ifdef HAS_SKY
+  return power_heuristic(path_pdf, light_probability(cell, SKY_LIGHT) * sky_pdf(direction));
+#else
+  return 1.0;
+#endif
+}
+
 #elif NEE == NEE_TWO_RAY
 
+// What a BSDF sample finds outside of the scene, with its weight: an image of the environment is a light as others are.
+vec3 environment_of_choice(LightSample light, float pdf, vec3 direction) {
+#ifdef HAS_SKY
+  if (light.light != SKY_LIGHT) return vec3(0.0);
+  return sky_radiance(direction) * power_heuristic(pdf, sky_pdf(direction)) / light.probability;
+#else
+  return parameters.environment;
+#endif
+}
+
 // The BSDF sample of Goswami 2020: what it meets counts where it is the light that was chosen. Environment is met too.
-vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
+vec3 bsdf_light(Event e, LightSample light, vec4 u, uint word, inout Tally tally) {
   vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, u.yz, u.w);
   float pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
   vec3 weight = bsdf_cosine(e.surface, e.bsdf, e.wo, wi) / pdf;
   vec3 result = vec3(0.0);
   if (pdf > 0.0 && weight != vec3(0.0)) {
     ++tally.rays;
-    Hit hit = closest_hit(ray_origin(e.surface, wi), wi);
-    if (hit.triangle == NO_TRIANGLE) {
-      result = weight * parameters.environment;
+    Meeting met = meet(ray_origin(e.surface, wi), wi, word);
+    tally.rays += met.passed;
+    if (met.hit.triangle == NO_TRIANGLE) {
+      result = weight * environment_of_choice(light, pdf, wi);
     } else {
-      Surface other = surface_at(hit, wi);
+      Surface other = met_surface(met, wi);
       LightTriangle triangle = light_triangle(other.light == NO_LIGHT ? 0u : other.light);
       if (other.light != NO_LIGHT && triangle.link.y == light.light) {
-        float heuristic = power_heuristic(pdf, point_pdf(triangle, hit.t, wi));
+        float heuristic = power_heuristic(pdf, point_pdf(triangle, met.hit.t, wi));
         result = weight * emitted_radiance(other) * heuristic / light.probability;
       }
     }
@@ -109,13 +129,17 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, inout Tally tally) {
 vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
-  vec3 result = bsdf_light(e, light, to_units(bits.two_ray), tally);
+  vec3 result = bsdf_light(e, light, to_units(bits.two_ray), bits.two_ray.x, tally);
   if (contribution == vec3(0.0)) return result;
   float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);
-  return result + contribution * power_heuristic(light.pdf / light.probability, other);
+  return result + contribution * light_weight(light, light.pdf / light.probability, other);
 }
 
 float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+  return 0.0;
+}
+
+float environment_weight(vec3 direction, float path_pdf, int cell) {
   return 0.0;
 }
 
@@ -126,6 +150,10 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
 }
 
 float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+  return 1.0;
+}
+
+float environment_weight(vec3 direction, float path_pdf, int cell) {
   return 1.0;
 }
 

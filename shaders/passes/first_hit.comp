@@ -1,10 +1,9 @@
 #version 450 core
 // What the ray through each pixel's centre meets first.
 #include "geometry/camera.glsl"
-#include "geometry/intersect.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/traverse.glsl"
 #include "material/bsdf.glsl"
+#include "sampling/meeting.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
 #include "shared/parameters.glsl"
@@ -17,10 +16,10 @@ void main() {
   uvec2 pixel = pixel_of_invocation();
   if (any(greaterThanEqual(pixel, parameters.image_size))) return;
   CameraRay ray = camera_ray(vec2(pixel) + 0.5);
-  Hit hit = closest_hit(ray.origin, ray.direction);
+  Meeting met = meet_half_opaque(ray.origin, ray.direction);
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-  if (hit.triangle != NO_TRIANGLE) {
-    Surface s = surface_at(hit, ray.direction);
+  if (met.hit.triangle != NO_TRIANGLE) {
+    Surface s = met_surface(met, ray.direction);
     first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(bsdf_of(s).base_color, 1.0),
                      vec4(emitted_radiance(s), 1.0));
   }

@@ -3,10 +3,10 @@
 // cell: the hemisphere about its normal as a square image of HEMISPHERE_SIZE, one path for each pixel of it.
 #include "geometry/camera.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/traverse.glsl"
 #include "learning/bins.glsl"
 #include "learning/cells.glsl"
 #include "path/trace.glsl"
+#include "sampling/meeting.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
@@ -46,7 +46,7 @@ void main() {
   uint index = pixel.y * uint(HEMISPHERE_SIZE) + pixel.x;
   RandomKey key = RandomKey(index, frame_number, parameters.seed);
   CameraRay view = camera_ray(vec2(PIXEL_X, PIXEL_Y) + 0.5);
-  Surface s = surface_at(closest_hit(view.origin, view.direction), view.direction);
+  Surface s = met_surface(meet_half_opaque(view.origin, view.direction), view.direction);
   vec2 p = to_disk(vec2(pixel) + random_units(key, BLOCK_CAMERA).xy);
   uint bin = bin_on_disk(p);
   vec3 radiance = bin == NO_BIN ? vec3(0.0) : incident_radiance(key, s, from_disk(p));

@@ -53,10 +53,29 @@ void initialize_bins(uint cell) {
 const float LEAST_COSINE = 0.1;
 const float GUESSED_ALBEDO = 0.5;
 
+#if defined(HAS_SKY) || defined(HAS_PUNCTUAL)
+// The same of a light that no surface has: the sky by its mean radiance, from all sides.
+float guess_without_surface(uint cell, uint light, float kind) {
+  float contribution = GUESSED_ALBEDO * light_axis(light).w;
+  if (kind != LIGHT_SKY) {
+    vec3 way = kind == LIGHT_DIRECTIONAL ? -light_axis(light).xyz : light_centre(light).xyz - places[cell].position.xyz;
+    float distance2 = max(dot(way, way), 1e-30);
+    float cosine = max(dot(places[cell].normal.xyz, way) * inversesqrt(distance2), LEAST_COSINE);
+    contribution *= cosine / PI;
+    if (kind != LIGHT_DIRECTIONAL) contribution /= distance2;
+  }
+  return contribution * contribution;
+}
+#endif
+
 // The square of what a light contributes if nothing hides it, seen from the cell's middle, in units of the brightest
 // light: as the prior of Vevoda, Kondapaneni & Krivanek 2018, from a point for the light. What has no axis shows a
 // quarter of its area to all sides.
 float guess(uint cell, uint light) {
+#if defined(HAS_SKY) || defined(HAS_PUNCTUAL)
+  float kind = light_choice(light).z;
+  if (kind != LIGHT_SURFACE) return guess_without_surface(cell, light, kind);
+#endif
   vec3 to_light = light_centre(light).xyz - places[cell].position.xyz;
   float distance2 = max(dot(to_light, to_light), 1e-30);
   vec3 direction = to_light * inversesqrt(distance2);

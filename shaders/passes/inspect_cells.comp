@@ -1,10 +1,9 @@
 #version 450 core
 // The cell of what the ray through each pixel's centre meets first.
 #include "geometry/camera.glsl"
-#include "geometry/intersect.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/traverse.glsl"
 #include "learning/cells.glsl"
+#include "sampling/meeting.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
 #include "shared/parameters.glsl"
@@ -17,9 +16,9 @@ void main() {
   uvec2 pixel = pixel_of_invocation();
   if (any(greaterThanEqual(pixel, parameters.image_size))) return;
   CameraRay ray = camera_ray(vec2(pixel) + 0.5);
-  Hit hit = closest_hit(ray.origin, ray.direction);
+  Meeting met = meet_half_opaque(ray.origin, ray.direction);
   int cell = NO_CELL;
-  if (hit.triangle != NO_TRIANGLE) cell = find_cell(surface_at(hit, ray.direction)).index;
+  if (met.hit.triangle != NO_TRIANGLE) cell = find_cell(met_surface(met, ray.direction)).index;
   pixel_cells[pixel.y * parameters.image_size.x + pixel.x] = cell;
   if (loop_was_cut) report_cut(pixel);
 }

@@ -1,15 +1,15 @@
 // A path from its first ray on: at most max_bounces scattering events. Its radiance is what arrives at the ray's
 // origin, the emission that the first ray meets included.
-#include "geometry/intersect.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/traverse.glsl"
 #include "light/nee.glsl"
+#include "light/sky.glsl"
 #include "material/bsdf.glsl"
 #include "path/bsdf_sample.glsl"
 #include "path/path.glsl"
 #include "path/roulette.glsl"
 #include "path/rules.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
 #include "shared/counters.glsl"
@@ -23,10 +23,10 @@
 #endif
 
 void leave_scene(inout Path path, uint bounce) {
-  vec3 radiance = parameters.environment;
+  vec3 radiance = environment_radiance(path.direction);
   float weight = 0.0;
 #ifdef HAS_ENVIRONMENT
-  weight = NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;
+  weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * radiance * weight;
 #endif
   record_miss(path, bounce, radiance, weight);
@@ -67,9 +67,9 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   return true;
 }
 
-Event event_at(inout Path path, Hit hit) {
+Event event_at(inout Path path, Meeting met) {
   Event e;
-  e.surface = surface_at(hit, path.direction);
+  e.surface = met_surface(met, path.direction);
   e.bsdf = bsdf_of(e.surface);
   e.wo = -path.direction;
   return e;
@@ -123,12 +123,13 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
       ++path.tally.rays;
       ++path.tally.segments;
       PreviousAction previous = PreviousAction(path.entry, path.share, path.weight);
-      Hit hit = closest_hit(path.origin, path.direction);
-      if (hit.triangle == NO_TRIANGLE) {
+      Meeting met = meet(path.origin, path.direction, passing_word(key, bounce));
+      path.tally.rays += met.passed;
+      if (met.hit.triangle == NO_TRIANGLE) {
         leave_scene(path, bounce);
         going_on = false;
       } else {
-        Event e = event_at(path, hit);
+        Event e = event_at(path, met);
         EventBits bits = event_bits(numbers, key, bounce);
         bool scatters = bounce < parameters.max_bounces;
         BsdfSample next;
@@ -136,7 +137,7 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
           find_state(path, e, bounce);
           next = bsdf_sample_at(e, bits.direction);
         }
-        arrive(path, e, next, hit.t, bounce, scatters, bits);
+        arrive(path, e, next, met.hit.t, bounce, scatters, bits);
         going_on = scatters && scatter(path, e, next, bounce, bits) && bounce < last_ray;
       }
       update_after_ray(path, previous);

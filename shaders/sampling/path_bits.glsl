@@ -11,7 +11,7 @@
 struct EventBits {
   uvec4 direction;  // mixture choice, direction, direction, lobe or bin
   uvec4 light;      // light, point, point, Russian roulette
-  uvec4 two_ray;    // unused, direction, direction, lobe
+  uvec4 two_ray;    // surfaces that are passed, direction, direction, lobe
   uvec4 more;       // triangle of the light, rotation of the expectation (three)
 };
 
@@ -19,6 +19,15 @@ EventBits independent_bits(RandomKey key, uint bounce) {
   uint block = bounce * BLOCKS_PER_EVENT;
   return EventBits(random_bits(key, block + BLOCK_DIRECTION), random_bits(key, block + BLOCK_LIGHT),
                    random_bits(key, block + BLOCK_TWO_RAY), random_bits(key, block + BLOCK_MORE));
+}
+
+// For the surfaces that the ray before an event may pass.
+uint passing_word(RandomKey key, uint bounce) {
+#ifdef HAS_ALPHA
+  return random_bits(key, BLOCKS_OF_PASSING + bounce).x;
+#else
+  return 0u;
+#endif
 }
 
 #if RANDOM == RANDOM_SOBOL

@@ -69,13 +69,23 @@ struct LightTriangle {
   uvec4 link;     // x: alias, y: light, z: alias threshold, as a part of 2^32, w: triangle in the order of the leaves
 };
 
-// A light: emitting triangles of one object that are connected. What next event estimation chooses among.
+// A light: what next event estimation chooses among. Emitting triangles of one object that are connected; an image of
+// the environment; or one of KHR_lights_punctual.
 struct Light {
-  vec4 choice;  // x: probability of choosing it where nothing is learned: by power, or uniform, y: by power
+  vec4 choice;  // x: probability of choosing it where nothing is learned: by power, or uniform, y: by power, z: LIGHT_...
   uvec4 link;   // x: alias, y: first triangle, z: alias threshold, as a part of 2^32, w: triangles
-  vec4 centre;  // xyz: mean point, w: area
-  vec4 axis;    // xyz: mean of the unit normals by area, w: mean radiance in units of the brightest light,
-                // of both faces together
+  vec4 centre;  // xyz: mean point, or where a punctual light stands, w: area
+  vec4 axis;    // xyz: mean of the unit normals by area, or where a punctual light shines to, w: mean radiance in units
+                // of the brightest light, of both faces together; of a punctual light, its intensity
+  vec4 intensity;  // rgb: of a punctual light, w: 1 / range
+  vec4 cone;       // x: scale, y: offset of its angular attenuation (KHR_lights_punctual)
+};
+
+// A texel of the environment's image, of equal angles in latitude and longitude. They stand behind the lights, in the
+// same buffer.
+struct SkyTexel {
+  vec4 radiance;  // rgb, w: density per solid angle of the directions that are drawn
+  uvec4 link;     // x: alias, y: alias threshold, as a part of 2^32 (z, w: unused)
 };
 
 // What a state of the table stands for.
@@ -224,7 +234,11 @@ struct Parameters {
   float initial_value;
   float shrinkage;
   float roulette_scale;
-  uvec2 unused;
+  uvec2 sky_size;       // columns, rows of the environment's image
+  uint sky_first;       // element of `lights` at which it begins
+  float sky_turn;       // by which its longitudes are shifted, as a part of all
+  float reach;          // a length that leads out of the scene from wherever in it
+  uint unused;
 };
 
 const int BINDING_PARAMETERS = 0;
@@ -280,6 +294,7 @@ const uint BLOCK_LIGHT = 2u;
 const uint BLOCK_TWO_RAY = 3u;
 const uint BLOCK_MORE = 4u;
 const uint BLOCKS_PER_EVENT = 4u;
+const uint BLOCKS_OF_PASSING = 0x40000000u;  // one for each ray of a path, behind those of all events
 
 // Below this the GGX lobe is narrower than single precision resolves.
 const float LEAST_ROUGHNESS = 0.03f;
@@ -294,6 +309,11 @@ const uint NO_TRIANGLE = 0xffffffffu;
 const uint NO_LIGHT = 0xffffffffu;
 const uint NO_TEXTURE = 0xffffffffu;
 const uint TEXTURE_SIDE_BITS = 16u;
+const float LIGHT_SURFACE = 0.0f;  // in Light::choice.z
+const float LIGHT_SKY = 1.0f;
+const float LIGHT_POINT = 2.0f;
+const float LIGHT_SPOT = 3.0f;
+const float LIGHT_DIRECTIONAL = 4.0f;
 const float ALPHA_OPAQUE = -1.0f;  // in Material::roughness.w
 const float ALPHA_BLEND = -2.0f;
 const float EMITS_FRONT = 0.0f;  // in Material::emission.w and LightTriangle::radiance.w

@@ -1,0 +1,20 @@
+// The environment's image as the shaders read it and draw directions from it.
+#pragma once
+
+#include "engine/gpu/structs.h"
+#include "engine/scene/lights.h"
+
+#include <vector>
+
+namespace qtrace::gpu {
+
+struct SkyTable {
+  std::vector<SkyTexel> texels;  // row by row; none where the whole image is black
+  double mean_radiance = 0;      // over all directions and channels
+};
+
+// A texel is drawn in proportion to what its bilinear radiance brings: its mean over the texel times the
+// texel's solid angle. So no direction with radiance has a density of zero.
+SkyTable build_sky_table(const EnvironmentMap& map);
+
+}  // namespace qtrace::gpu

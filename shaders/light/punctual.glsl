@@ -1,0 +1,33 @@
+// Lights without a surface: KHR_lights_punctual. No path meets them.
+#include "geometry/scene.glsl"
+#include "shared/parameters.glsl"
+#include "shared/structs.glsl"
+#include "shared/variants.glsl"
+
+#ifdef HAS_PUNCTUAL
+
+bool is_punctual(float kind) {
+  return kind >= LIGHT_POINT;
+}
+
+// From a surface there to the light, or out of the scene where it is directional.
+vec3 to_punctual(uint light, float kind, vec3 position) {
+  return kind == LIGHT_DIRECTIONAL ? -light_axis(light).xyz * parameters.reach : light_centre(light).xyz - position;
+}
+
+// Irradiance of a surface that faces it, which sees it at distance `t` under `direction`.
+vec3 punctual_irradiance(uint light, float kind, vec3 direction, float t) {
+  vec4 intensity = light_intensity(light);
+  if (kind == LIGHT_DIRECTIONAL) return intensity.rgb;
+  float part = t * intensity.w;
+  float window = clamp(1.0 - part * part * part * part, 0.0, 1.0);
+  float falloff = window / (t * t);
+  if (kind == LIGHT_SPOT) {
+    vec4 cone = light_cone(light);
+    float angular = clamp(dot(light_axis(light).xyz, -direction) * cone.x + cone.y, 0.0, 1.0);
+    falloff *= angular * angular;
+  }
+  return intensity.rgb * falloff;
+}
+
+#endif
