@@ -127,7 +127,8 @@ const Emitters::Lamp* Emitters::lamp_of(std::uint32_t triangle) const {
 
 bool Emitters::emits(std::uint32_t triangle) const {
   const Triangle& t = scene_.triangles[triangle];
-  if (scene_.materials[t.material].emission == glm::vec3(0)) return false;
+  const qtrace::Material& material = scene_.materials[t.material];
+  if (material.emission == glm::vec3(0) || material.is_unlit) return false;
   const Lamp* lamp = lamp_of(triangle);
   if (lamp == nullptr) return true;
   const auto p = corners_in(lamp->use, lamp->image, scene_, t);

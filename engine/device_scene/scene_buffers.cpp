@@ -107,10 +107,11 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
       lights_("lights", pack_lights(lights), only_fetched(Texels::float4)),
       texels_(kTexels, textures.texels, only_fetched(Texels::half4)) {
   for (const qtrace::Material& m : scene.materials) {
-    if (!has_specular_lobe(m) || m.roughness >= LEAST_ROUGHNESS) continue;
-    warnings_.push_back(fmt::format(
-        "material '{}' has roughness {}, which is rendered as {}: perfect mirrors are not modelled", m.name,
-        m.roughness, LEAST_ROUGHNESS));
+    if (!has_specular_lobe(m) || m.roughness >= LEAST_ROUGHNESS || m.roughness == 0) continue;
+    warnings_.push_back(
+        fmt::format("material '{}' has roughness {}, which is rendered as 0, a mirror: single precision "
+                    "knows no lobe that narrow",
+                    m.name, m.roughness));
   }
 }
 

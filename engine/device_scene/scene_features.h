@@ -8,10 +8,15 @@
 namespace qtrace::gpu {
 
 struct SceneFeatures {
-  bool specular = false;  // any material with a specular lobe
-  uint textures = 0;      // a bit for each TextureSlot that some material uses
-  bool tangents = false;  // of textures of normals
-  bool colors = false;    // of vertices
+  bool specular = false;      // any material with a specular lobe
+  uint textures = 0;          // a bit for each TextureSlot that some material uses
+  bool tangents = false;      // of textures of normals
+  bool colors = false;        // of vertices
+  bool transmission = false;  // light passes surfaces
+  bool absorption = false;    // in a volume behind them
+  bool clearcoat = false;
+  bool delta = false;  // lobes that are a mirror's
+  bool unlit = false;
   bool alpha = false;     // surfaces that rays may pass
   uint lights = 0;        // of every kind, the environment's image among them
   bool punctual = false;  // lights without a surface

@@ -169,6 +169,12 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
   if (features.textures != 0) defines["TEXTURES"] = std::to_string(features.textures);
   if (features.tangents) defines["HAS_TANGENTS"] = "1";
   if (features.colors) defines["HAS_COLORS"] = "1";
+  if (features.transmission) defines["HAS_TRANSMISSION"] = "1";
+  if (features.absorption) defines["HAS_ABSORPTION"] = "1";
+  if (features.clearcoat) defines["HAS_CLEARCOAT"] = "1";
+  if (features.delta) defines["HAS_DELTA"] = "1";
+  if (features.transmission || features.clearcoat || features.delta) defines["HAS_OWN_LOBES"] = "1";
+  if (features.unlit) defines["HAS_UNLIT"] = "1";
   if (features.alpha) defines["HAS_ALPHA"] = "1";
   if (features.punctual) defines["HAS_PUNCTUAL"] = "1";
   const bool has_sky = features.sky.x > 0;

@@ -55,7 +55,7 @@ vec4 blended(vec4 v0, vec4 v1, vec4 v2, vec2 b) {
 }
 
 // Members of the structs, by their places in them.
-const uint MATERIAL_MEMBERS = 9u;
+const uint MATERIAL_MEMBERS = 12u;
 vec4 material_member(uint material, uint member) { return fetch(materials, MATERIAL_MEMBERS * material + member); }
 vec4 base_color_of(uint material) { return material_member(material, 0u); }
 vec4 emission_of(uint material) { return material_member(material, 1u); }
@@ -63,9 +63,12 @@ vec4 dielectric_f0_of(uint material) { return material_member(material, 2u); }
 vec4 roughness_of(uint material) { return material_member(material, 3u); }
 vec4 specular_of(uint material) { return material_member(material, 4u); }
 vec4 normal_scale_of(uint material) { return material_member(material, 5u); }
+vec4 transmission_of(uint material) { return material_member(material, 6u); }
+vec4 absorption_of(uint material) { return material_member(material, 7u); }
+vec4 coat_of(uint material) { return material_member(material, 8u); }
 // The element of `materials` at which the TextureUse of this slot begins; NO_TEXTURE where there is none.
 uint texture_use_of(uint material, uint slot) {
-  return floatBitsToUint(material_member(material, 6u + slot / 4u))[slot % 4u];
+  return floatBitsToUint(material_member(material, 9u + slot / 4u))[slot % 4u];
 }
 
 const uint LIGHT_MEMBERS = 6u;

@@ -24,6 +24,9 @@ struct Surface {
 #ifdef HAS_COLORS
   vec4 color;  // of its vertices
 #endif
+#ifdef HAS_CLEARCOAT
+  vec3 coat_normal;  // the clearcoat's, as `normal`
+#endif
 };
 
 // What textures and colours of its vertices need, where the second and third corner count for `b`.
@@ -36,16 +39,32 @@ void add_corner_values(inout Surface s, uint triangle, vec2 b) {
 #endif
 }
 
-void bend_normal(inout Surface s, Hit hit, vec3 direction) {
-#if HAS_TEXTURE(TEXTURE_NORMAL)
-  uint use = texture_use_of(s.material, uint(TEXTURE_NORMAL));
+#ifdef HAS_TANGENTS
+// The mesh's normal as the texture of a slot bends it, towards the viewer; as it is where there is no such texture.
+vec3 bent_normal(Surface s, Hit hit, vec3 direction, uint slot, float scale) {
+  float side = s.back ? -1.0 : 1.0;
+  vec3 normal = side * s.mesh_normal;
+  uint use = texture_use_of(s.material, slot);
   if (use != NO_TEXTURE) {
     vec4 tangent = blended(corner_tangent(hit.triangle, 0u), corner_tangent(hit.triangle, 1u),
                            corner_tangent(hit.triangle, 2u), hit.barycentric);
     tangent.w = corner_tangent(hit.triangle, 0u).w;
-    vec3 bent = mapped_normal(use, s.uv, normal_scale_of(s.material).x, s.mesh_normal, tangent, s.back ? -1.0 : 1.0);
-    s.normal = adapted_normal(bent, s.geometric_normal, -direction);
+    vec3 bent = mapped_normal(use, s.uv, scale, s.mesh_normal, tangent, side);
+    normal = adapted_normal(bent, s.geometric_normal, -direction);
   }
+  return normal;
+}
+#endif
+
+void bend_normals(inout Surface s, Hit hit, vec3 direction) {
+#ifdef HAS_CLEARCOAT
+  s.coat_normal = s.normal;
+#if HAS_TEXTURE(TEXTURE_CLEARCOAT_NORMAL)
+  s.coat_normal = bent_normal(s, hit, direction, uint(TEXTURE_CLEARCOAT_NORMAL), normal_scale_of(s.material).y);
+#endif
+#endif
+#if HAS_TEXTURE(TEXTURE_NORMAL)
+  s.normal = bent_normal(s, hit, direction, uint(TEXTURE_NORMAL), normal_scale_of(s.material).x);
 #endif
 }
 
@@ -81,7 +100,7 @@ Surface surface_at(Hit hit, vec3 direction) {
   s.offset = OFFSET_FRACTION * max_component(max(abs(v0), max(abs(v1), abs(v2))));
   s.inwards = scale * ((edge1 + edge2) * (1.0 / 3.0) - (s.position - v0));
   add_corner_values(s, hit.triangle, b);
-  bend_normal(s, hit, direction);
+  bend_normals(s, hit, direction);
   return s;
 }
 
@@ -90,15 +109,6 @@ Surface surface_at(Hit hit, vec3 direction) {
 vec3 ray_origin(Surface s, vec3 direction) {
   float side = dot(s.geometric_normal, direction) < 0.0 ? -1.0 : 1.0;
   return s.position + s.offset * (side * s.geometric_normal + s.inwards);
-}
-
-// Radiance that the surface emits towards its viewer; from the front face, unless double-sided.
-vec3 emitted_radiance(Surface s) {
-  vec4 emission = emission_of(s.material);
-#if HAS_TEXTURE(TEXTURE_EMISSION)
-  emission.rgb *= factor_at(s.material, uint(TEXTURE_EMISSION), s.uv).rgb;
-#endif
-  return s.back && emission.w == EMITS_FRONT ? vec3(0.0) : emission.rgb;
 }
 
 // Orthonormal basis about n: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).

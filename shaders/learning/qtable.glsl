@@ -42,11 +42,11 @@ float expected_reflection(Surface s, Bsdf b, vec3 wo, Cell cell, vec3 rotation) 
   do {
     vec3 u = fract(vec3(float(i), float(i * 7u % EXPECTATION_SAMPLES), float(i * 11u % EXPECTATION_SAMPLES)) /
                        float(EXPECTATION_SAMPLES) + rotation);
-    vec3 wi = sample_bsdf(s, b, wo, u.xy, u.z);
-    vec3 reflected = bsdf_cosine(s, b, wo, wi);
+    vec3 wi = sample_table_lobes(s, b, wo, u.xy, u.z);
+    vec3 reflected = table_lobes_cosine(s, b, wo, wi);
     if (reflected != vec3(0.0)) {
       uint bin = bin_of(to_cell(cell, s.normal, wi));
-      sum += fetch_one(q_values, first_bin(uint(cell.index)) + bin) * average(reflected) / bsdf_pdf(s, b, wo, wi);
+      sum += fetch_one(q_values, first_bin(uint(cell.index)) + bin) * average(reflected) / table_lobes_pdf(s, b, wo, wi);
     }
     ++i;
   } while (i < EXPECTATION_SAMPLES);

@@ -1,12 +1,15 @@
 // Lights, and points on them. A light is chosen first, by a fixed rule or by what the cell has learned; then, of a surface,
 // one of its triangles by power and a point uniform on it; of the sky, a direction.
+#include "geometry/intersect.glsl"
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
-#include "geometry/texture.glsl"
 #include "light/punctual.glsl"
 #include "light/sky.glsl"
+#include "material/bsdf.glsl"
+#include "material/emission.glsl"
 #include "material/opacity.glsl"
 #include "sampling/random.glsl"
+#include "shared/math.glsl"
 #include "shared/parameters.glsl"
 #include "shared/structs.glsl"
 #include "shared/variants.glsl"
@@ -23,6 +26,9 @@ struct LightSample {
   uint light;
   vec3 origin;        // shadow ray, from the light: neighbouring ones share more of their way than from the surface
   vec3 segment;       // to the surface, over t in (0, 1)
+#ifdef HAS_ABSORPTION
+  float distance;     // to the point
+#endif
 #ifdef HAS_PUNCTUAL
   bool is_punctual;   // paths cannot meet it
 #endif
@@ -74,19 +80,14 @@ float light_pdf(int cell, uint index, float t, vec3 direction) {
   return light_probability(cell, triangle.link.y) * point_pdf(triangle, t, direction);
 }
 
-// Radiance of a point of a light, where its second and third corner count for `b`.
-vec3 light_radiance(LightTriangle light, vec2 b) {
-  vec3 radiance = light.radiance.rgb;
-#if HAS_TEXTURE(TEXTURE_EMISSION) || defined(HAS_ALPHA)
-  Surface s;
-  s.material = floatBitsToUint(shade_of(light.link.w, 0u).w);
-  add_corner_values(s, light.link.w, b);
-#if HAS_TEXTURE(TEXTURE_EMISSION)
-  radiance *= factor_at(s.material, uint(TEXTURE_EMISSION), s.uv).rgb;
+// Radiance of a point of a light that is seen under `direction`, where its second and third corner count for `b`.
+vec3 light_radiance(LightTriangle light, vec3 direction, vec2 b) {
+#if HAS_TEXTURE(TEXTURE_EMISSION) || defined(HAS_ALPHA) || defined(HAS_CLEARCOAT)
+  Surface s = surface_at(Hit(0.0, light.link.w, b), direction);
+  return emitted_radiance(s, bsdf_of(s, -direction)) * opacity_of(s);
+#else
+  return light.radiance.rgb;
 #endif
-  radiance *= opacity_of(s);
-#endif
-  return radiance;
 }
 
 // Of the surface of `result.light`.
@@ -103,13 +104,16 @@ void sample_lamp(inout LightSample result, Surface s, uvec4 bits, uint triangle_
   result.direction = to_point / t;
   float facing = -dot(normal, result.direction);
   bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != EMITS_FRONT));
-  result.radiance = lit ? light_radiance(triangle, root * vec2(1.0 - along, along)) : vec3(0.0);
+  result.radiance = lit ? light_radiance(triangle, result.direction, root * vec2(1.0 - along, along)) : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
   // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
   // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.
   result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.segment = ray_origin(s, result.direction) - result.origin;
+#ifdef HAS_ABSORPTION
+  result.distance = t;
+#endif
 }
 
 #ifdef HAS_SKY
@@ -120,6 +124,9 @@ void sample_light_of_sky(inout LightSample result, Surface s, uvec4 bits, uint t
   result.pdf = result.probability * sky.pdf;
   result.origin = ray_origin(s, sky.direction);
   result.segment = parameters.reach * sky.direction;
+#ifdef HAS_ABSORPTION
+  result.distance = INFINITY;
+#endif
 }
 #endif
 
@@ -134,6 +141,9 @@ void sample_punctual(inout LightSample result, Surface s, float kind) {
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.origin = s.position + way;
   result.segment = ray_origin(s, result.direction) - result.origin;
+#ifdef HAS_ABSORPTION
+  result.distance = kind == LIGHT_DIRECTIONAL ? INFINITY : t;
+#endif
 }
 #endif
 

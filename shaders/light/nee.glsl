@@ -2,9 +2,12 @@
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
 #include "light/lights.glsl"
+#include "light/medium.glsl"
 #include "light/shadow.glsl"
 #include "light/sky.glsl"
 #include "material/bsdf.glsl"
+#include "material/emission.glsl"
+#include "material/own_lobes.glsl"
 #include "sampling/direction.glsl"
 #include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
@@ -53,6 +56,9 @@ LightSample sample_event_light(Event e, EventBits bits) {
 // What a light sample brings, before MIS: zero where it is hidden.
 vec3 light_contribution(Event e, LightSample light, inout Tally tally) {
   vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, light.direction) * light.radiance;
+#ifdef HAS_ABSORPTION
+  reflected *= left_after(medium_towards(e, light.direction), light.distance);
+#endif
   vec3 contribution = vec3(0.0);
   if (light.pdf > 0.0 && reflected != vec3(0.0)) {
     float reaching = transmittance(light.origin, light.segment, tally.rays);
@@ -101,25 +107,31 @@ vec3 environment_of_choice(LightSample light, float pdf, vec3 direction) {
 }
 
 // The BSDF sample of Goswami 2020: what it meets counts where it is the light that was chosen. Environment is met too.
-vec3 bsdf_light(Event e, LightSample light, vec4 u, uint word, inout Tally tally) {
-  vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, u.yz, u.w);
-  float pdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
-  vec3 weight = bsdf_cosine(e.surface, e.bsdf, e.wo, wi) / pdf;
+vec3 bsdf_light(Event e, LightSample light, uvec4 bits, inout Tally tally) {
+  BsdfDraw drawn = draw_bsdf(e, bits);
+  vec3 wi = drawn.direction;
   vec3 result = vec3(0.0);
-  if (pdf > 0.0 && weight != vec3(0.0)) {
+  if (drawn.pdf > 0.0 && drawn.weight != vec3(0.0)) {
     ++tally.rays;
-    Meeting met = meet(ray_origin(e.surface, wi), wi, word);
+    Meeting met = meet(ray_origin(e.surface, wi), wi, bits.x);
     tally.rays += met.passed;
     if (met.hit.triangle == NO_TRIANGLE) {
-      result = weight * environment_of_choice(light, pdf, wi);
+      result = drawn.weight * environment_of_choice(light, drawn.pdf, wi);
     } else {
       Surface other = met_surface(met, wi);
       LightTriangle triangle = light_triangle(other.light == NO_LIGHT ? 0u : other.light);
       if (other.light != NO_LIGHT && triangle.link.y == light.light) {
-        float heuristic = power_heuristic(pdf, point_pdf(triangle, met.hit.t, wi));
-        result = weight * emitted_radiance(other) * heuristic / light.probability;
+        float heuristic = power_heuristic(drawn.pdf, point_pdf(triangle, met.hit.t, wi));
+        result = drawn.weight * emitted_radiance(other, bsdf_of(other, -wi)) * heuristic / light.probability;
       }
+#ifdef HAS_UNLIT
+      // What emits and is no light is found by this ray alone.
+      if (other.light == NO_LIGHT) result = drawn.weight * emitted_radiance(other, bsdf_of(other, -wi));
+#endif
     }
+#ifdef HAS_ABSORPTION
+    result *= left_after(medium_towards(e, wi), met.hit.t);
+#endif
   }
   return result;
 }
@@ -129,9 +141,9 @@ vec3 bsdf_light(Event e, LightSample light, vec4 u, uint word, inout Tally tally
 vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
-  vec3 result = bsdf_light(e, light, to_units(bits.two_ray), bits.two_ray.x, tally);
+  vec3 result = bsdf_light(e, light, bits.two_ray, tally);
   if (contribution == vec3(0.0)) return result;
-  float other = bsdf_pdf(e.surface, e.bsdf, e.wo, light.direction);
+  float other = bsdf_pdf(e, light.direction);
   return result + contribution * light_weight(light, light.pdf / light.probability, other);
 }
 

@@ -3,6 +3,7 @@
 #include "geometry/camera.glsl"
 #include "geometry/surface.glsl"
 #include "material/bsdf.glsl"
+#include "material/emission.glsl"
 #include "sampling/meeting.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
@@ -20,8 +21,9 @@ void main() {
   FirstHit first = FirstHit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (met.hit.triangle != NO_TRIANGLE) {
     Surface s = met_surface(met, ray.direction);
-    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(bsdf_of(s).base_color, 1.0),
-                     vec4(emitted_radiance(s), 1.0));
+    Bsdf b = bsdf_of(s, -ray.direction);
+    first = FirstHit(vec4(s.normal, 0.0), vec4(s.position, 1.0), vec4(b.base_color, 1.0),
+                     vec4(emitted_radiance(s, b), 1.0));
   }
   first_hits[pixel.y * parameters.image_size.x + pixel.x] = first;
   if (loop_was_cut) report_cut(pixel);

@@ -1,5 +1,5 @@
 // A direction drawn at a scattering event, and what the path's throughput takes from it.
-#include "material/bsdf.glsl"
+#include "material/own_lobes.glsl"
 #include "sampling/direction.glsl"
 #include "shared/variants.glsl"
 
@@ -17,6 +17,14 @@ BsdfSample bsdf_sample_at(Event e, uvec4 bits) {
   next.roulette = next.weight;
 #if SAMPLER == SAMPLER_RL && ROULETTE != ROULETTE_THROUGHPUT
   if (next.direction.bsdf > 0.0) next.roulette = reflected / next.direction.bsdf;
+#endif
+#ifdef HAS_OWN_LOBES
+  if (next.direction.is_delta) {
+    next.weight = next.direction.weight;
+    next.roulette = next.weight;
+  }
+  // What a medium's index does to radiance says nothing of what the path is worth.
+  next.roulette /= next.direction.compression;
 #endif
   return next;
 }

@@ -31,19 +31,29 @@ void record_arrival(uint bounce, vec3 emission, float share) {
   arrivals = bounce;
 }
 
+// Of radiance, what the way of the path's last ray leaves. What the ray found carries it with it, and so does the event
+// that it led to.
+vec3 reaching(Path path) {
+#ifdef HAS_ABSORPTION
+  return path.reaching;
+#else
+  return vec3(1.0);
+#endif
+}
+
 void record_miss(inout Path path, uint bounce, vec3 radiance, float weight) {
-  record_arrival(bounce, radiance, weight);
+  record_arrival(bounce, radiance * reaching(path), weight);
 }
 
 void record_hit(inout Path path, Event e, BsdfSample next, uint bounce, vec3 emitted, float weight, bool scatters,
                 EventBits bits) {
-  record_arrival(bounce, emitted, weight);
+  record_arrival(bounce, emitted * reaching(path), weight);
 }
 
 void record_scattering(inout Path path, uint bounce, vec3 direct, BsdfSample next) {
   vertices[bounce].entry = next.direction.entry;
-  vertices[bounce].direct = direct;
-  vertices[bounce].weight = next.weight;
+  vertices[bounce].direct = direct * reaching(path);
+  vertices[bounce].weight = next.weight * reaching(path);
   events = bounce + 1u;
 }
 

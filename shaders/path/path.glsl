@@ -1,6 +1,13 @@
 // A path on its way, and what of the table its last ray belongs to.
 #include "shared/counters.glsl"
 
+// The action that drew a ray's direction: what the ray's target is for.
+struct PreviousAction {
+  uint entry;
+  uint share;
+  float weight;
+};
+
 struct Path {
   vec3 origin;
   vec3 direction;
@@ -14,12 +21,18 @@ struct Path {
   float td_target;  // for that entry, as far as it is known
   uint share;    // of the Q-table, for the side of the mixture that drew `direction`
   float weight;  // throughput of the event that it left, averaged over the channels
+#ifdef HAS_OWN_LOBES
+  bool draws_own;    // `direction` was drawn by one of the BSDF's own lobes,
+  float own_factor;  // which weighs what comes from there by this, averaged over the channels
+  // The target of an action that waits for what the next ray finds (td_rules.glsl).
+  bool holds;
+  PreviousAction held;
+  float held_target;
+  float held_factor;
+#endif
+#ifdef HAS_ABSORPTION
+  vec3 medium;    // absorption per length where the ray is
+  vec3 reaching;  // part of radiance that the last ray's way leaves
+#endif
   Tally tally;
-};
-
-// The action that drew a ray's direction: what the ray's target is for.
-struct PreviousAction {
-  uint entry;
-  uint share;
-  float weight;
 };

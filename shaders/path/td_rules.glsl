@@ -51,11 +51,45 @@ void record_scattering(inout Path path, uint bounce, vec3 direct, BsdfSample nex
 
 void record_survival(uint bounce, float survival) {}
 
-void update_after_ray(inout Path path, PreviousAction previous) {
-  gather_radiance(path.tally, previous.entry, path.td_target);
+void gather_action(inout Path path, PreviousAction action, float target) {
+  gather_radiance(path.tally, action.entry, target);
 #ifdef LEARNS_MIXTURE
-  gather_square(path.tally, previous.share, previous.weight * path.td_target);
+  gather_square(path.tally, action.share, action.weight * target);
 #endif
 }
 
+#ifdef HAS_OWN_LOBES
+
+// An event's own lobes (own_lobes.glsl) bring radiance that its cell's table does not hold: where the path goes on by one of
+// them, the target of the action that led to the event waits for what the next ray finds, as the path's own estimate of it.
+void update_after_ray(inout Path path, PreviousAction previous) {
+  float target = path.td_target;
+#ifdef HAS_ABSORPTION
+  target *= average(path.reaching);
+#endif
+  PreviousAction action = previous;
+  if (path.holds) {
+    action = path.held;
+    target = path.held_target + path.held_factor * target;
+  }
+  path.holds = path.draws_own;
+  path.held = action;
+  path.held_target = target;
+  path.held_factor = path.own_factor;
+  if (!path.holds) gather_action(path, action, target);
+}
+
+// A path may end before the ray that a target waits for.
+void update_after_path(inout Path path) {
+  if (path.holds) gather_action(path, path.held, path.held_target);
+}
+
+#else
+
+void update_after_ray(inout Path path, PreviousAction previous) {
+  gather_action(path, previous, path.td_target);
+}
+
 void update_after_path(inout Path path) {}
+
+#endif

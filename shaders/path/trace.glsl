@@ -1,9 +1,11 @@
 // A path from its first ray on: at most max_bounces scattering events. Its radiance is what arrives at the ray's
 // origin, the emission that the first ray meets included.
 #include "geometry/surface.glsl"
+#include "light/medium.glsl"
 #include "light/nee.glsl"
 #include "light/sky.glsl"
 #include "material/bsdf.glsl"
+#include "material/emission.glsl"
 #include "path/bsdf_sample.glsl"
 #include "path/path.glsl"
 #include "path/roulette.glsl"
@@ -34,7 +36,7 @@ void leave_scene(inout Path path, uint bounce) {
 
 // Emission at the hit, and what the ray that led here is worth.
 void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, EventBits bits) {
-  vec3 emitted = emitted_radiance(e.surface);
+  vec3 emitted = emitted_radiance(e.surface, e.bsdf);
   float weight =
       bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
   path.radiance += path.throughput * emitted * weight;
@@ -47,7 +49,7 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   path.radiance += path.throughput * direct;
   record_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
-  float by_value = survival_by_value(path, e, bounce);
+  float by_value = survival_by_value(path, e, next, bounce);
   path.throughput *= next.weight;
   path.roulette *= next.roulette;
   path.origin = ray_origin(e.surface, next.direction.direction);
@@ -57,11 +59,26 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   path.share = next.direction.share;
   path.weight = average(next.weight);
   path.cell = cell_of(e);
+#ifdef HAS_OWN_LOBES
+  path.draws_own = next.direction.is_own;
+  path.own_factor = average(next.direction.weight);
+#endif
+#ifdef HAS_ABSORPTION
+  path.medium = medium_towards(e, path.direction);
+#endif
   if (bounce + 1u > parameters.russian_roulette_start) {
     float survival = by_value > 0.0 ? by_value : survival_by_reflectance(path);
-    if (to_unit(bits.light.w) >= survival) return false;
+    if (to_unit(bits.light.w) >= survival) {
+#ifdef HAS_OWN_LOBES
+      path.draws_own = false;
+#endif
+      return false;
+    }
     path.throughput /= survival;
     path.roulette /= survival;
+#ifdef HAS_OWN_LOBES
+    path.own_factor /= survival;
+#endif
     record_survival(bounce, survival);
   }
   return true;
@@ -70,8 +87,11 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
 Event event_at(inout Path path, Meeting met) {
   Event e;
   e.surface = met_surface(met, path.direction);
-  e.bsdf = bsdf_of(e.surface);
+  e.bsdf = bsdf_of(e.surface, -path.direction);
   e.wo = -path.direction;
+#ifdef HAS_ABSORPTION
+  e.medium = path.medium;
+#endif
   return e;
 }
 
@@ -111,6 +131,15 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
   path.share = NO_ENTRY;
   path.weight = 0.0;
   path.td_target = -1.0;
+#ifdef HAS_OWN_LOBES
+  path.draws_own = false;
+  path.own_factor = 0.0;
+  path.holds = false;
+#endif
+#ifdef HAS_ABSORPTION
+  path.medium = vec3(0.0);
+  path.reaching = vec3(1.0);
+#endif
   path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
 
   // With two_ray, the last event's light needs no further ray of the path.
@@ -125,6 +154,13 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
       PreviousAction previous = PreviousAction(path.entry, path.share, path.weight);
       Meeting met = meet(path.origin, path.direction, passing_word(key, bounce));
       path.tally.rays += met.passed;
+#ifdef HAS_OWN_LOBES
+      path.draws_own = false;
+#endif
+#ifdef HAS_ABSORPTION
+      path.reaching = left_after(path.medium, met.hit.t);
+      path.throughput *= path.reaching;
+#endif
       if (met.hit.triangle == NO_TRIANGLE) {
         leave_scene(path, bounce);
         going_on = false;

@@ -1,6 +1,8 @@
-// How a path goes on: the run's direction sampler and its density.
+// How a path goes on: the run's direction sampler and its density. The BSDF's own lobes (own_lobes.glsl) come first, each with
+// its share; the run's sampler has the rest, the hemisphere.
 #include "geometry/surface.glsl"
 #include "material/bsdf.glsl"
+#include "material/own_lobes.glsl"
 #include "sampling/random.glsl"
 #include "shared/fetch.glsl"
 #include "shared/math.glsl"
@@ -28,6 +30,9 @@ struct Event {
   bool is_guided;    // whether directions are drawn with the table
   float bsdf_share;  // of these, by the BSDF
 #endif
+#ifdef HAS_ABSORPTION
+  vec3 medium;  // absorption on the viewer's side
+#endif
 };
 
 int cell_of(Event e) {
@@ -44,6 +49,12 @@ struct DirectionSample {
   float bsdf;  // density of the BSDF's own sampler
   uint entry;  // of the Q-table, NO_ENTRY where there is none
   uint share;  // entry of the Q-table for the side of the mixture that drew it, NO_ENTRY where that is not learned
+#ifdef HAS_OWN_LOBES
+  bool is_own;    // drawn by one of the BSDF's own lobes
+  bool is_delta;  // by a smooth one: pdf is infinite
+  vec3 weight;    // of that lobe alone: f |cos(theta)| over its density
+  float compression;  // of radiance (OwnSample)
+#endif
 };
 
 #if SAMPLER == SAMPLER_RL
@@ -67,8 +78,8 @@ float bsdf_share_of(Event e) {
 #endif
 }
 
-float direction_pdf(Event e, vec3 wi) {
-  float bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+float hemisphere_pdf(Event e, vec3 wi) {
+  float bsdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
   if (!e.is_guided) return bsdf;
   vec3 local = to_cell(e.cell, e.surface.normal, wi);
   if (local.z <= 0.0) return bsdf;  // below the surface the table has no bins
@@ -85,7 +96,7 @@ Drawn draw(Event e, bool by_table, uint chosen, vec2 u, float u_lobe) {
 #ifdef HAS_SPECULAR
   Drawn drawn = Drawn(to_world(direction_in_bin(chosen, u), e.cell.tangent, e.surface.normal), chosen);
   if (!by_table) {
-    drawn.direction = sample_bsdf(e.surface, e.bsdf, e.wo, u, u_lobe);
+    drawn.direction = sample_table_lobes(e.surface, e.bsdf, e.wo, u, u_lobe);
     drawn.bin = bin_of(to_cell(e.cell, e.surface.normal, drawn.direction));
   }
   return drawn;
@@ -95,7 +106,7 @@ Drawn draw(Event e, bool by_table, uint chosen, vec2 u, float u_lobe) {
 #endif
 }
 
-DirectionSample sample_direction(Event e, uvec4 bits) {
+DirectionSample sample_hemisphere(Event e, uvec4 bits) {
   uint cell = e.is_guided ? uint(e.cell.index) : 0u;
   Choice choice = choose_bin(cell, bits.w);
   bool by_table = e.is_guided && to_unit(bits.x) >= e.bsdf_share;
@@ -106,7 +117,7 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
 #endif
   DirectionSample result;
   result.direction = drawn.direction;
-  result.bsdf = bsdf_pdf(e.surface, e.bsdf, e.wo, drawn.direction);
+  result.bsdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, drawn.direction);
   result.pdf = mixture_pdf(e, result.bsdf, table);
   result.entry = e.is_guided ? first_bin(cell) + drawn.bin : NO_ENTRY;
   result.share = NO_ENTRY;
@@ -118,27 +129,136 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
 
 #elif SAMPLER == SAMPLER_UNIFORM
 
-float direction_pdf(Event e, vec3 wi) {
+float hemisphere_pdf(Event e, vec3 wi) {
   return dot(e.surface.normal, wi) > 0.0 ? 0.5 / PI : 0.0;
 }
 
-DirectionSample sample_direction(Event e, uvec4 bits) {
+DirectionSample sample_hemisphere(Event e, uvec4 bits) {
   float cosine = to_unit(bits.y);
   float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
   float phi = 2.0 * PI * to_unit(bits.z);
   vec3 local = vec3(sine * cos(phi), sine * sin(phi), cosine);
-  return DirectionSample(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI, 0.0, NO_ENTRY, NO_ENTRY);
+  DirectionSample result;
+  result.direction = to_world(local, tangent_of(e.surface.normal), e.surface.normal);
+  result.pdf = 0.5 / PI;
+  result.bsdf = 0.0;
+  result.entry = NO_ENTRY;
+  result.share = NO_ENTRY;
+  return result;
+}
+
+#else
+
+float hemisphere_pdf(Event e, vec3 wi) {
+  return table_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
+}
+
+DirectionSample sample_hemisphere(Event e, uvec4 bits) {
+  vec3 wi = sample_table_lobes(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
+  DirectionSample result;
+  result.direction = wi;
+  result.pdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
+  result.bsdf = 0.0;
+  result.entry = NO_ENTRY;
+  result.share = NO_ENTRY;
+  return result;
+}
+
+#endif
+
+#ifdef HAS_OWN_LOBES
+
+struct OwnDraw {
+  bool is_own;
+  OwnSample sampled;
+  float share;  // of all own lobes
+  uint rest;    // a random word for what chooses next
+};
+
+// `bits`: the choice, direction, direction, unused.
+OwnDraw draw_own_lobe(Event e, uvec4 bits) {
+  OwnShares shares = own_shares(e.surface, e.bsdf, e.wo);
+  float u = to_unit(bits.x);
+  OwnDraw own;
+  own.share = sum_of(shares);
+  own.is_own = u < own.share;
+  own.sampled = sample_own_lobes(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), u, shares);
+  float rest = clamp((u - own.share) / max(1.0 - own.share, 1e-7), 0.0, 1.0);
+  own.rest = uint(rest * 4294967040.0);
+  return own;
+}
+
+// Density of all that may draw `wi`, where the hemisphere's sampler has `hemisphere`.
+float with_own_lobes(Event e, float share, float hemisphere, vec3 wi) {
+  return (1.0 - share) * hemisphere + own_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
+}
+
+float direction_pdf(Event e, vec3 wi) {
+  return with_own_lobes(e, sum_of(own_shares(e.surface, e.bsdf, e.wo)), hemisphere_pdf(e, wi), wi);
+}
+
+DirectionSample sample_direction(Event e, uvec4 bits) {
+  OwnDraw own = draw_own_lobe(e, bits);
+  DirectionSample result = sample_hemisphere(e, uvec4(own.rest, bits.yzw));
+  result.is_own = own.is_own;
+  result.is_delta = own.is_own && own.sampled.is_delta;
+  result.weight = own.sampled.weight;
+  result.compression = own.is_own ? own.sampled.compression : 1.0;
+  if (own.is_own) {
+    result.direction = own.sampled.direction;
+    result.pdf = hemisphere_pdf(e, result.direction);
+    result.bsdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, result.direction);
+    result.entry = NO_ENTRY;
+    result.share = NO_ENTRY;
+  }
+  result.pdf = with_own_lobes(e, own.share, result.pdf, result.direction);
+  result.bsdf = with_own_lobes(e, own.share, result.bsdf, result.direction);
+  if (result.is_delta) result.pdf = INFINITY;
+  return result;
 }
 
 #else
 
 float direction_pdf(Event e, vec3 wi) {
-  return bsdf_pdf(e.surface, e.bsdf, e.wo, wi);
+  return hemisphere_pdf(e, wi);
 }
 
 DirectionSample sample_direction(Event e, uvec4 bits) {
-  vec3 wi = sample_bsdf(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
-  return DirectionSample(wi, bsdf_pdf(e.surface, e.bsdf, e.wo, wi), 0.0, NO_ENTRY, NO_ENTRY);
+  return sample_hemisphere(e, bits);
 }
 
 #endif
+
+// By the BSDF alone, whatever the run's sampler is.
+float bsdf_pdf(Event e, vec3 wi) {
+  float pdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
+#ifdef HAS_OWN_LOBES
+  pdf = with_own_lobes(e, sum_of(own_shares(e.surface, e.bsdf, e.wo)), pdf, wi);
+#endif
+  return pdf;
+}
+
+struct BsdfDraw {
+  vec3 direction;
+  float pdf;    // infinite for a smooth lobe
+  vec3 weight;  // f |cos(theta)| over the density
+};
+
+BsdfDraw draw_bsdf(Event e, uvec4 bits) {
+  vec4 u = to_units(bits);
+  BsdfDraw drawn;
+  drawn.direction = sample_table_lobes(e.surface, e.bsdf, e.wo, u.yz, u.w);
+#ifdef HAS_OWN_LOBES
+  OwnDraw own = draw_own_lobe(e, bits);
+  if (own.is_own) drawn.direction = own.sampled.direction;
+#endif
+  drawn.pdf = bsdf_pdf(e, drawn.direction);
+  drawn.weight = bsdf_cosine(e.surface, e.bsdf, e.wo, drawn.direction) / drawn.pdf;
+#ifdef HAS_OWN_LOBES
+  if (own.is_own && own.sampled.is_delta) {
+    drawn.pdf = INFINITY;
+    drawn.weight = own.sampled.weight;
+  }
+#endif
+  return drawn;
+}

@@ -43,9 +43,12 @@ struct Material {      // glTF metallic-roughness
   vec4 base_color;      // rgb, w: metallic
   vec4 emission;        // rgb: radiance, w: EMITS_...
   vec4 dielectric_f0;   // rgb: reflectance of the dielectric lobe at normal incidence, w: at grazing incidence
-  vec4 roughness;       // x: alpha = roughness^2, y: roughness, z: opacity, w: cutoff of the opacity, or an ALPHA_...
+  vec4 roughness;       // x: alpha = roughness^2, 0 for a mirror, y: roughness, z: opacity, w: cutoff of the opacity, or an ALPHA_...
   vec4 specular;        // rgb: F0 of the index of refraction times its colour, where it may be above 1, w: strength
   vec4 normal_scale;    // x: of the texture of normals, y: of the coat's (z, w: unused)
+  vec4 transmission;    // x: factor, y: index of refraction of the volume that it bounds, 0 for a thin wall (z, w: unused)
+  vec4 absorption;      // rgb: of that volume, per length (w: unused)
+  vec4 coat;            // x: clearcoat, y: its roughness (z, w: unused)
   uvec4 textures0;      // of TEXTURE_BASE_COLOR to TEXTURE_EMISSION: elements at which their TextureUse begins, or NO_TEXTURE
   uvec4 textures1;      // of TEXTURE_SPECULAR to TEXTURE_CLEARCOAT
   uvec4 textures2;      // of TEXTURE_CLEARCOAT_ROUGHNESS and TEXTURE_CLEARCOAT_NORMAL
@@ -296,8 +299,8 @@ const uint BLOCK_MORE = 4u;
 const uint BLOCKS_PER_EVENT = 4u;
 const uint BLOCKS_OF_PASSING = 0x40000000u;  // one for each ray of a path, behind those of all events
 
-// Below this the GGX lobe is narrower than single precision resolves.
-const float LEAST_ROUGHNESS = 0.03f;
+// Below this a lobe is taken for a mirror's: its width, the square, comes near the rounding of directions.
+const float LEAST_ROUGHNESS = 0.005f;
 
 // Rays leave a surface by this fraction of its largest coordinate: 32 units in the last place of a float,
 // above the rounding of interpolating a point and of the intersection test, which both grow with the
@@ -318,6 +321,7 @@ const float ALPHA_OPAQUE = -1.0f;  // in Material::roughness.w
 const float ALPHA_BLEND = -2.0f;
 const float EMITS_FRONT = 0.0f;  // in Material::emission.w and LightTriangle::radiance.w
 const float EMITS_BOTH = 1.0f;
+const float EMITS_UNLIT = 2.0f;  // its base colour, to both sides
 const int NO_CELL = -1;             // of a hit
 const uint NO_BIN = 0xffffffffu;
 const uint NO_ENTRY = 0xffffffffu;  // of the Q-table

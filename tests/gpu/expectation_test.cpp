@@ -28,7 +28,7 @@ class Expectation : public LearningStage {
          "geometry/traverse.glsl"},
         "",
         kViewedSurface +
-            "Cell cell = find_cell(s);\nBsdf b = bsdf_of(s);\n"
+            "Cell cell = find_cell(s);\nBsdf b = bsdf_of(s, -d);\n"
             "float z = (float(index) + 0.5) / 2048.0;\nfloat sum = 0.0;\nuint i = 0u;\ndo {\n"
             "  float phi = 2.0 * PI * (float(i) + 0.5) / 2048.0;\n  float r = sqrt(1.0 - z * z);\n"
             "  vec3 local = vec3(r * cos(phi), r * sin(phi), z);\n"

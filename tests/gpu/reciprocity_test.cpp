@@ -15,7 +15,7 @@ constexpr float kTolerance = 2e-3F;
 TEST(Reciprocity, OfGlossySurfaces) {
   device();
   const auto results =
-      probe<glm::vec4>("vec4", {"material/bsdf.glsl", "sampling/random.glsl"},
+      probe<glm::vec4>("vec4", {"material/own_lobes.glsl", "sampling/random.glsl"},
                        "vec3 upward(vec2 u) {\n"
                        "  float r = sqrt(1.0 - u.x * u.x);\n"
                        "  return vec3(r * cos(2.0 * PI * u.y), r * sin(2.0 * PI * u.y), u.x);\n"

@@ -31,7 +31,7 @@ Event the_event() {
   Hit hit = closest_hit(parameters.camera_origin.xyz, direction);
   Event e;
   e.surface = surface_at(hit, direction);
-  e.bsdf = bsdf_of(e.surface);
+  e.bsdf = bsdf_of(e.surface, -direction);
   e.wo = -direction;
 #if SAMPLER == SAMPLER_RL
   e.cell = find_cell(e.surface);

@@ -68,7 +68,7 @@ class LearningStage : public testing::Test {
              "",
              kViewedSurface +
                  "vec3 rotation = random_units(RandomKey(index, 1u, 5u), 1u).xyz;\n"
-                 "result = vec4(next_value(s, bsdf_of(s), -d, find_cell(s), vec3(0.5), rotation));",
+                 "result = vec4(next_value(s, bsdf_of(s, -d), -d, find_cell(s), vec3(0.5), rotation));",
              count, defines_)) {
       values.push_back(v.x);
     }
