@@ -171,7 +171,8 @@ float own_lobes_pdf(Surface s, Bsdf b, vec3 wo, vec3 wi) {
   return sum;
 }
 
-// The directions of smooth lobes have no density.
+// The directions of smooth lobes have no density. A rough one may draw a direction outside of those that its density tells
+// of, which another lobe has: it then counts as one of a smooth lobe that brings nothing.
 struct OwnSample {
   vec3 direction;
   bool is_delta;
@@ -195,7 +196,7 @@ OwnSample sample_through(Surface s, Bsdf b, vec3 wo, vec2 u, float share) {
   float compression = 1.0 / (b.far_index * b.far_index);
   bool passes = wi != vec3(0.0) && passes_into(s, wi);
   vec3 weight = passing_color(b, dot(wo, facet)) * (below_coat(b) * compression / share);
-  return OwnSample(wi, one_way, passes ? weight : vec3(0.0), compression);
+  return OwnSample(wi, one_way || !passes, passes ? weight : vec3(0.0), compression);
 }
 #endif
 
@@ -204,8 +205,8 @@ OwnSample sample_coat(Surface s, Bsdf b, vec3 wo, vec2 u, float share) {
   vec3 facet = s.coat_normal;
   if (!is_mirror_coat(b)) facet = facet_normal(s.coat_normal, wo, b.coat_alpha, u);
   vec3 wi = reflect(-wo, facet);
-  vec3 weight = coat_scatters_into(s, wi) ? vec3(b.coat / share) : vec3(0.0);
-  return OwnSample(wi, is_mirror_coat(b), weight, 1.0);
+  bool is_above = coat_scatters_into(s, wi);
+  return OwnSample(wi, is_mirror_coat(b) || !is_above, is_above ? vec3(b.coat / share) : vec3(0.0), 1.0);
 }
 #endif
 

@@ -201,8 +201,10 @@ DirectionSample sample_direction(Event e, uvec4 bits) {
   OwnDraw own = draw_own_lobe(e, bits);
   DirectionSample result = sample_hemisphere(e, uvec4(own.rest, bits.yzw));
   result.is_own = own.is_own;
-  result.is_delta = own.is_own && own.sampled.is_delta;
-  result.weight = own.sampled.weight;
+  // Rough lobes may draw below the surface, where their density is none and what passes has one.
+  bool is_outside = !own.is_own && dot(e.surface.normal, result.direction) <= 0.0;
+  result.is_delta = is_outside || (own.is_own && own.sampled.is_delta);
+  result.weight = is_outside ? vec3(0.0) : own.sampled.weight;
   result.compression = own.is_own ? own.sampled.compression : 1.0;
   if (own.is_own) {
     result.direction = own.sampled.direction;
@@ -259,6 +261,7 @@ BsdfDraw draw_bsdf(Event e, uvec4 bits) {
     drawn.pdf = INFINITY;
     drawn.weight = own.sampled.weight;
   }
+  if (!own.is_own && dot(e.surface.normal, drawn.direction) <= 0.0) drawn.weight = vec3(0.0);
 #endif
   return drawn;
 }

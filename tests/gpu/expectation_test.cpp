@@ -34,8 +34,7 @@ class Expectation : public LearningStage {
             "  vec3 local = vec3(r * cos(phi), r * sin(phi), z);\n"
             "  vec3 wi = to_world(local, cell.tangent, s.normal);\n"
             "  sum += fetch_one(q_values, first_bin(uint(cell.index)) + bin_of(local)) * "
-            "average(bsdf_cosine(s, b, -d, "
-            "wi));\n"
+            "average(table_lobes_cosine(s, b, -d, wi));\n"
             "  ++i;\n} while (i < 2048u);\nresult = vec4(sum);",
         kRows, defines_);
     double sum = 0;

@@ -34,6 +34,24 @@ RenderSettings guided(UpdateRule rule) {
   return settings;
 }
 
+// A scene that has everything.
+gpu::SceneFeatures everything() {
+  gpu::SceneFeatures result = features(true);
+  result.textures = (1U << kTextureSlots) - 1;
+  result.tangents = result.colors = true;
+  result.transmission = result.absorption = result.clearcoat = result.delta = true;
+  result.unlit = result.alpha = result.punctual = true;
+  result.sky = {4, 2};
+  return result;
+}
+
+// One extension alone: what it needs, it must not have from another.
+gpu::SceneFeatures with(bool gpu::SceneFeatures::*feature) {
+  gpu::SceneFeatures result = features(true);
+  result.*feature = true;
+  return result;
+}
+
 // Each choice that leaves code out is made in one of them and not in another.
 std::vector<Variant> variants() {
   RenderSettings plain;
@@ -67,7 +85,13 @@ std::vector<Variant> variants() {
           {"learned lights", shader_defines(lights, features(true))},
           {"expected_sarsa", shader_defines(guided(UpdateRule::expected_sarsa), features(true))},
           {"sarsa", shader_defines(sarsa, features(false))},
-          {"monte_carlo", shader_defines(monte_carlo, features(false))}};
+          {"monte_carlo", shader_defines(monte_carlo, features(false))},
+          {"everything", shader_defines(guided(UpdateRule::expected_sarsa), everything())},
+          {"everything with paths", shader_defines(guided(UpdateRule::monte_carlo), everything())},
+          {"everything in two rays", shader_defines(two_ray, everything())},
+          {"mirrors", shader_defines(plain, with(&gpu::SceneFeatures::delta))},
+          {"glass", shader_defines(plain, with(&gpu::SceneFeatures::transmission))},
+          {"coats", shader_defines(plain, with(&gpu::SceneFeatures::clearcoat))}};
 }
 
 // Which files a variant's programs have in common with no other: they are never compiled without its choice.
