@@ -64,5 +64,27 @@ TEST(Independent, LightSamplesBringWhatPathsFind) {
   }
 }
 
+// A lamp of 800 triangles, half of which are dark by a texture, is the same as one of two.
+TEST(Independent, SamplesLampsOfManyTriangles) {
+  LitFloor lit = lit_floor(0.8F, 3, 1, 2);
+  Scene scene = lit.scene;
+  scene.triangles.resize(2);  // the floor
+  constexpr int kParts = 20;
+  for (int i = 0; i < kParts * kParts; ++i) {
+    const float step = 1.0F / kParts;
+    const float x = step * static_cast<float>(i % kParts) - 0.5F,
+                z = step * static_cast<float>(i / kParts) - 0.5F;
+    const std::size_t first = scene.triangles.size();
+    add_quad(scene, {x, 2, z}, {step, 0, 0}, {0, 0, step}, 1);
+    const glm::vec2 uv(x < -0.01F ? 0.25F : 0.75F, 0.5F);
+    for (std::size_t k = first; k < first + 2; ++k) scene.triangles[k].uv.fill(uv);
+  }
+  Texture texture = add_image(scene, 2, {{255, 255, 255, 255}, {0, 0, 0, 255}});
+  texture.is_nearest = true;
+  scene.materials[1].texture(TextureSlot::emission) = texture;
+  expect_about(seen_from(scene, {3, 1, 3}, {0, 0, 0.25F}, one_pixel(1, 20'000)),
+               glm::dvec3(0.5 * lit.radiance(0, 0.25)));
+}
+
 }  // namespace
 }  // namespace qtrace::independent

@@ -6,12 +6,14 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace qtrace::independent {
 
-// Triangles that may emit, each by its power over the squared distance; points on it by area.
+// Triangles that may emit, each by its power over the squared distance; points on it by area. Where there are
+// so many that sums over all of them would take long, by their power alone, out of a table.
 class AreaLights {
  public:
   explicit AreaLights(const Scene& scene);
@@ -25,7 +27,7 @@ class AreaLights {
   };
   Sample sample(const glm::dvec3& from, Random& random) const;
 
-  // Per area, of drawing a point of this triangle from there.
+  // Per area, of drawing a point of this triangle from there; 0 of a triangle that never emits.
   double density(const glm::dvec3& from, std::uint32_t triangle) const;
 
  private:
@@ -35,9 +37,14 @@ class AreaLights {
     glm::dvec3 middle;
   };
   double weight(const Light& light, const glm::dvec3& from) const;
+  double sum_of_weights(const glm::dvec3& from) const;
+  const Light& at(const glm::dvec3& from, double sum) const;  // where the sum of weights reaches this
+  bool are_many() const;
 
   const Scene& scene_;
   std::vector<Light> lights_;
+  std::vector<double> power_up_to_;       // of each light and all before
+  std::vector<std::size_t> of_triangle_;  // index of its light
 };
 
 // Of a punctual light at a point, as if nothing stood between.
