@@ -79,6 +79,7 @@ TEST(Independent, ShowsUnlitSurfacesFromBothSides) {
 TEST(Independent, UnlitSurfacesLightWhatIsBelow) {
   LitFloor lit = lit_floor(0.8F, 1, 4, 1);
   lit.scene.materials[1] = unlit(glm::vec3(1));
+  lit.scene.materials[1].emission = glm::vec3(7);  // which is not its radiance
   for (const bool sample_lights : {true, false}) {
     Options options = one_pixel(1, 40'000);
     options.sample_lights = sample_lights;

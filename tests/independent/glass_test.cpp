@@ -87,10 +87,15 @@ TEST(Independent, ReflectsAllWhereNothingLeavesAVolume) {
   expect_about(seen_at(floor_of(volume), to_eye), glm::dvec3(gradient_at(to_eye.y)), 0.02);
 }
 
+// Its reflectance is `specular` at all angles, and the rest is scattered: see
+// Independent.LightsAFloorByTheSky for what a white floor has of the gradient.
 TEST(Independent, PassesNothingWithoutAnIndex) {
   for (const bool is_thin : {true, false}) {
-    expect_near(seen_at(floor_of(glass(0, is_thin, 0)), kToEye, 1000).mean, glm::dvec3(gradient_at(kCosine)),
-                0.02);
+    Material material = glass(0, is_thin, 0);
+    material.specular = 0.5F;
+    material.base_color = glm::vec3(0.6F);
+    expect_about(seen_at(floor_of(material), kToEye),
+                 glm::dvec3(0.5 * gradient_at(kCosine) + 0.5 * 0.6 * 0.25));
   }
 }
 
@@ -102,7 +107,7 @@ TEST(Independent, AttenuatesByBeersLaw) {
   volume.base_color = glm::vec3(0.9F);
   Scene scene = wall(volume);
   add_quad(scene, {-1, -1, -1}, {0, 2, 0}, {2, 0, 0}, 0);
-  add_wall(scene, -2, emitter(glm::vec3(4)));
+  add_wall(scene, -2.5F, emitter(glm::vec3(4)));
   const glm::dvec3 once = glm::sqrt(glm::dvec3(0.9, 0.5, 0.2));
   const double passes = 0.9 * 0.96;
   const glm::dvec3 straight = passes * passes * once * 4.0;
@@ -111,6 +116,20 @@ TEST(Independent, AttenuatesByBeersLaw) {
   };
   expect_about(found(2), straight);
   expect_about(found(4), straight * (1.0 + 0.04 * 0.04 * once * once));
+}
+
+TEST(Independent, KeepsTheVolumeThroughAThinSheet) {
+  Material volume = glass(0, false, 1);
+  volume.attenuation_color = {0.9F, 0.5F, 0.2F};
+  volume.attenuation_distance = 1;
+  Material sheet = glass(0, true);
+  sheet.specular = 0;
+  Scene scene = wall(volume);
+  add_quad(scene, {-1, -1, -1}, {0, 2, 0}, {2, 0, 0}, 0);
+  add_wall(scene, -0.5F, sheet);
+  add_wall(scene, -2.5F, emitter(glm::vec3(4)));
+  expect_about(seen_from(scene, {0.2F, 0.1F, 2}, {0.2F, 0.1F, 0}, one_pixel(3, 50'000)),
+               4.0 * glm::dvec3(volume.attenuation_color));
 }
 
 // A lamp and what it lights, in a volume that bends nothing: its head-on reflectance is 0.

@@ -107,7 +107,7 @@ TEST(Independent, ShowsTheSkyWhereItsImageSays) {
 TEST(Independent, DrawsDirectionsOfTheSkyWithTheirDensity) {
   EnvironmentMap map = numbered();
   map.rotation = 0.7F;
-  for (std::size_t i = 0; i < 4; ++i) map.radiance[i] = glm::vec3(0);
+  for (std::size_t i = 0; i < 8; ++i) map.radiance[i] = glm::vec3(0);
   map.radiance[6] = glm::vec3(500);
   const Environment sky(map);
   glm::dvec3 whole(0);

@@ -2,6 +2,7 @@
 #include "tests/independent/shading_normal.h"
 #include "tests/independent/small_scenes.h"
 
+#include <functional>
 #include <random>
 
 namespace qtrace::independent {
@@ -42,15 +43,22 @@ TEST(Independent, ShadesByNormalsFromTextures) {
 }
 
 TEST(Independent, ScattersOnlyWhereNormalAndFaceAgree) {
-  // So far to the right that the sun, from the left, is behind the bump.
-  Scene scene = mapped_wall({230, 128, 180, 255}, 1, 1);
-  scene.lights[0] = sun({1, 0, -0.5F}, glm::vec3(2));
-  EXPECT_EQ(seen_from(scene, {0, 0, 3}, {0, 0.1F, 0}, one_pixel(1)).mean, glm::dvec3(0));
-  // From the right it is in front of the bump, but behind the wall.
-  scene.lights[0] = sun({-1, 0, 0.2F}, glm::vec3(2));
-  EXPECT_EQ(seen_from(scene, {0, 0, 3}, {0, 0.1F, 0}, one_pixel(1)).mean, glm::dvec3(0));
-  scene.lights[0] = sun({-1, 0, -0.2F}, glm::vec3(2));
-  EXPECT_GT(seen_from(scene, {0, 0, 3}, {0, 0.1F, 0}, one_pixel(1)).mean.x, 0.1);
+  const Rgba to_the_right{230, 128, 180, 255};
+  Scene base = mapped_wall(to_the_right, 1, 1);
+  Scene coat = base;
+  Material& coated = coat.materials[0];
+  coated = lambert(glm::vec3(0));
+  coated.clearcoat = coated.clearcoat_roughness = 1;
+  coated.texture(TextureSlot::clearcoat_normal) = base.materials[0].texture(TextureSlot::normal);
+  for (Scene& scene : {std::ref(base), std::ref(coat)}) {
+    const auto seen_under = [&](glm::vec3 to_sun) {
+      scene.lights[0] = sun(-to_sun, glm::vec3(2));
+      return seen_from(scene, {0, 0, 3}, {0, 0.1F, 0}, one_pixel(1)).mean.x;
+    };
+    EXPECT_EQ(seen_under({-1, 0, 0.5F}), 0);  // behind the bump, and before the wall
+    EXPECT_EQ(seen_under({1, 0, -0.2F}), 0);  // before the bump, and behind the wall
+    EXPECT_GT(seen_under({1, 0, 0.2F}), 1e-3);
+  }
 }
 
 TEST(Independent, TurnsNormalsUntilTheirMirrorLeavesTheSurface) {
