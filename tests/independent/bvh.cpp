@@ -86,6 +86,7 @@ std::size_t Bvh::build(std::size_t first, std::size_t last) {
 
 Hit Bvh::closest(const Ray& ray, double t_min, double t_max) const {
   Hit hit;
+  if (order_.empty()) return hit;
   hit.t = t_max;
   std::size_t stack[64] = {0};
   int depth = 1;

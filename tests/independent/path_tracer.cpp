@@ -1,216 +1,197 @@
 #include "tests/independent/path_tracer.h"
 
 #include "tests/independent/bvh.h"
-#include "tests/independent/material.h"
+#include "tests/independent/camera.h"
+#include "tests/independent/environment.h"
+#include "tests/independent/lights.h"
+#include "tests/independent/random.h"
+#include "tests/independent/scattering.h"
+#include "tests/independent/surface.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <random>
+#include <limits>
+#include <optional>
 #include <thread>
 
 namespace qtrace::independent {
 namespace {
 
-constexpr double kPi = glm::pi<double>();
 constexpr int kLattice = 17;  // rays each way in which a pixel is searched for a light's edge
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Random {
-  std::mt19937_64 bits;
-  double operator()() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-};
+// Radiance towards the eye. A clearcoat lies over what emits as well (KHR_materials_clearcoat).
+glm::dvec3 emitted(const Point& p) {
+  if (p.material->is_unlit) return p.surface.base_color;
+  if (!p.from_front && !p.material->double_sided) return glm::dvec3(0);
+  return (1 - coat_share(p)) * p.surface.emission;
+}
 
-// A point that scatters, as seen by `eye`.
-struct Point {
-  glm::dvec3 position, eye;  // eye: direction towards where the ray came from
-  glm::dvec3 face, normal;   // geometric and interpolated, on the side of the eye
-  bool from_front = true;
-  const Material* material = nullptr;
-};
+// What a distance within the volume of a material leaves; no material: all (KHR_materials_volume).
+glm::dvec3 transmittance(const Material* medium, double distance) {
+  if (!medium || medium->attenuation_distance == std::numeric_limits<float>::infinity()) return glm::dvec3(1);
+  return glm::pow(glm::dvec3(medium->attenuation_color), glm::dvec3(distance / medium->attenuation_distance));
+}
+
+// Where a path is on from a point in this direction.
+const Material* medium_beyond(const Point& p, const glm::dvec3& direction, const Material* medium) {
+  if (glm::dot(p.face, direction) > 0 || p.material->is_thin) return medium;
+  return p.from_front ? p.material : nullptr;
+}
 
 class Tracer {
  public:
-  Tracer(const Scene& scene, const Options& options) : scene_(scene), options_(options), bvh_(scene) {
+  Tracer(const Scene& scene, const Options& options)
+      : scene_(scene), options_(options), bvh_(scene), area_lights_(scene) {
+    if (scene.environment) environment_.emplace(*scene.environment);
     glm::dvec3 lo(1e300), hi(-1e300);
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-      for (const glm::vec3& p : scene.triangles[i].position)
+    for (const Triangle& triangle : scene.triangles) {
+      for (const glm::vec3& p : triangle.position)
         lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
-      const glm::dvec3 emission(scene.materials[scene.triangles[i].material].emission);
-      const double power = area_of(scene.triangles[i]) * (emission.x + emission.y + emission.z);
-      if (power > 0) lights_.push_back({i, power});
     }
-    epsilon_ = 1e-9 * glm::length(hi - lo);
+    if (!scene.triangles.empty()) epsilon_ = 1e-9 * glm::length(hi - lo);
   }
 
   bool sees_edge_of_light(int x, int y) const {
-    const glm::dvec3 corner = seen(camera_ray(x, y));
+    const std::optional<glm::dvec3> corner = light_seen(ray_at(x, y));
     for (int k = 1; k < kLattice * kLattice; ++k) {
       const double dx = k % kLattice, dy = k / kLattice;
-      if (seen(camera_ray(x + dx / (kLattice - 1), y + dy / (kLattice - 1))) != corner) return true;
+      if (light_seen(ray_at(x + dx / (kLattice - 1), y + dy / (kLattice - 1))) != corner) return true;
     }
     return false;
   }
 
   glm::dvec3 sample(int x, int y, Random& random) const {
-    Ray ray = camera_ray(x + random(), y + random());
+    Ray ray = ray_at(x + random(), y + random());
+    const Material* medium = nullptr;  // the camera is outside
     glm::dvec3 radiance(0), throughput(1);
-    double drawn_by = 0;  // density of the ray's direction
+    double drawn_by = kInfinity;  // density of the ray's direction; infinite where no light sample has it
     for (int bounce = 0;; ++bounce) {
-      const Hit hit = bvh_.closest(ray, epsilon_);
-      if (!hit) return radiance + throughput * options_.environment;
-      const Point p = point(ray, hit);
-      const glm::dvec3 emission = emitted(*p.material, p.from_front);
-      const bool is_shared = bounce > 0 && options_.sample_lights && emission != glm::dvec3(0);
-      const double share = is_shared ? drawn_by / (drawn_by + light_density(ray.origin, hit.triangle, p)) : 1;
-      radiance += throughput * emission * share;
-      if (bounce == options_.max_bounces) return radiance;
-      if (options_.sample_lights) radiance += throughput * direct(p, random);
-      const glm::dvec3 direction = scattered(p, random);
-      const double cosine = glm::dot(direction, p.normal);
-      if (cosine <= 0 || glm::dot(direction, p.face) <= 0) return radiance;
-      drawn_by = density(p, direction);
-      throughput *= reflect(*p.material, p.normal, direction, p.eye) * (cosine / drawn_by);
+      const Hit hit = seen(ray, random);
+      throughput *= transmittance(medium, hit.t);
+      if (!hit) return radiance + throughput * from_outside(ray.direction, drawn_by);
+      const Point p = point_at(scene_, hit, ray.origin + hit.t * ray.direction, -ray.direction);
+      radiance += throughput * emitted(p) * share_of_path(ray, hit, p, drawn_by);
+      if (bounce == options_.max_bounces || p.material->is_unlit) return radiance;
+      const Scattering scattering(p);
+      if (options_.sample_lights) radiance += throughput * direct(p, scattering, medium, random);
+      const Scattering::Sample next = scattering.sample(random);
+      throughput *= next.weight;
       if (throughput == glm::dvec3(0)) return radiance;
-      ray = {p.position, direction};
+      drawn_by = next.density;
+      medium = medium_beyond(p, next.direction, medium);
+      ray = {p.position, next.direction};
     }
   }
 
  private:
-  Ray camera_ray(double x, double y) const {
-    const glm::dmat4 m(scene_.camera.world_from_camera);
-    const double up = std::tan(0.5 * scene_.camera.vertical_fov);
-    const double right = up * options_.width / options_.height;
-    const glm::dvec4 d((2 * x / options_.width - 1) * right, (1 - 2 * y / options_.height) * up, -1, 0);
-    return {glm::dvec3(m[3]), glm::normalize(glm::dvec3(m * d))};
+  Ray ray_at(double x, double y) const {
+    return camera_ray(scene_.camera, x, y, options_.width, options_.height);
   }
 
-  Point point(const Ray& ray, const Hit& hit) const {
-    const Triangle& t = scene_.triangles[hit.triangle];
-    Point p;
-    p.position = ray.origin + hit.t * ray.direction;
-    p.eye = -glm::normalize(ray.direction);
-    p.material = &scene_.materials[t.material];
-    const glm::dvec3 face = glm::normalize(area_vector(t.position));
-    p.from_front = glm::dot(face, p.eye) > 0;
-    const double side = p.from_front ? 1 : -1;
-    p.face = side * face;
-    p.normal = side * glm::normalize((1 - hit.u - hit.v) * glm::dvec3(t.normal[0]) +
-                                     hit.u * glm::dvec3(t.normal[1]) + hit.v * glm::dvec3(t.normal[2]));
-    if (!(glm::dot(p.normal, p.eye) > 0)) p.normal = p.face;  // it faces away from the ray, or is none
-    return p;
+  // The nearest surface that the ray does not pass.
+  Hit seen(const Ray& ray, Random& random) const {
+    Hit hit = bvh_.closest(ray, epsilon_);
+    while (hit) {
+      const double chance = chance_to_stop(scene_, hit);
+      if (chance == 1 || (chance > 0 && random() < chance)) break;
+      hit = bvh_.closest(ray, hit.t);
+    }
+    return hit;
   }
 
-  glm::dvec3 seen(const Ray& ray) const {
-    const Hit hit = bvh_.closest(ray, epsilon_);
+  // The part of the light that passes all surfaces there; the direction need not be unit.
+  double passing(const Ray& ray, double t_min, double t_max) const {
+    double part = 1;
+    for (Hit hit = bvh_.closest(ray, t_min, t_max); hit && part > 0; hit = bvh_.closest(ray, hit.t, t_max)) {
+      part *= 1 - chance_to_stop(scene_, hit);
+    }
+    return part;
+  }
+
+  // What tells lights apart in the picture, whatever their textures; none: an image of the sky.
+  std::optional<glm::dvec3> light_seen(const Ray& ray) const {
+    Hit hit = bvh_.closest(ray, epsilon_);
+    while (hit && chance_to_stop(scene_, hit) == 0) hit = bvh_.closest(ray, hit.t);
+    if (!hit && environment_) return {};
     if (!hit) return options_.environment;
-    const Point p = point(ray, hit);
-    return emitted(*p.material, p.from_front);
+    const Triangle& t = scene_.triangles[hit.triangle];
+    const Material& m = scene_.materials[t.material];
+    if (m.is_unlit) return glm::dvec3(m.base_color);
+    const bool from_front = glm::dot(area_vector(t.position), ray.direction) < 0;
+    return from_front || m.double_sided ? glm::dvec3(m.emission) : glm::dvec3(0);
   }
 
-  static glm::dvec3 emitted(const Material& material, bool front) {
-    return front || material.double_sided ? glm::dvec3(material.emission) : glm::dvec3(0);
+  // By the balance heuristic (Veach & Guibas 1995).
+  double share_of_path(const Ray& ray, const Hit& hit, const Point& p, double drawn_by) const {
+    if (!options_.sample_lights || drawn_by == kInfinity || p.material->is_unlit || area_lights_.empty())
+      return 1;
+    const double by_light =
+        area_lights_.density(ray.origin, hit.triangle) * hit.t * hit.t / glm::dot(p.face, p.eye);
+    return drawn_by / (drawn_by + by_light);
   }
 
-  struct Light {
-    std::uint32_t triangle;
-    double power;
-  };
-
-  // Its power over the squared distance of its middle; its area keeps that finite.
-  double weight(const Light& light, const glm::dvec3& from) const {
-    const Triangle& t = scene_.triangles[light.triangle];
-    const glm::dvec3 way =
-        (glm::dvec3(t.position[0]) + glm::dvec3(t.position[1]) + glm::dvec3(t.position[2])) / 3.0 - from;
-    return light.power / (glm::dot(way, way) + area_of(t));
+  glm::dvec3 from_outside(const glm::dvec3& direction, double drawn_by) const {
+    if (!environment_) return options_.environment;
+    const bool is_shared = options_.sample_lights && drawn_by != kInfinity;
+    const double share = is_shared ? drawn_by / (drawn_by + environment_->density(direction)) : 1;
+    return share * environment_->radiance(direction);
   }
 
-  struct Choice {
-    const Light* light;
-    double chance;
-  };
-
-  Choice choose_light(const glm::dvec3& from, Random& random) const {
-    double sum = 0;
-    for (const Light& light : lights_) sum += weight(light, from);
-    double left = random() * sum;
-    for (const Light& light : lights_) {
-      const double w = weight(light, from);
-      if (left < w || &light == &lights_.back()) return {&light, w / sum};
-      left -= w;
-    }
-    return {};
+  glm::dvec3 direct(const Point& p, const Scattering& scattering, const Material* medium,
+                    Random& random) const {
+    glm::dvec3 sum(0);
+    if (!area_lights_.empty()) sum += from_area(p, scattering, medium, random);
+    if (environment_) sum += from_environment(p, scattering, medium, random);
+    for (const PunctualLight& light : scene_.lights) sum += from_punctual(p, light, medium);
+    return sum;
   }
 
-  // Per solid angle as seen from there, of drawing this point of a light.
-  double light_density(const glm::dvec3& from, std::uint32_t triangle, const Point& p) const {
-    double sum = 0, own = 0;
-    for (const Light& light : lights_) {
-      const double w = weight(light, from);
-      sum += w;
-      if (light.triangle == triangle) own = w;
-    }
-    const glm::dvec3 way = p.position - from;
-    return own / sum / area_of(scene_.triangles[triangle]) * glm::dot(way, way) / glm::dot(p.face, p.eye);
+  glm::dvec3 from_area(const Point& p, const Scattering& scattering, const Material* medium,
+                       Random& random) const {
+    const AreaLights::Sample light = area_lights_.sample(p.position, random);
+    const glm::dvec3 way = light.position - p.position;
+    const double distance = glm::length(way);
+    const glm::dvec3 direction = way / distance;
+    const glm::dvec3 part = scattered_part(p, direction);
+    if (part == glm::dvec3(0)) return part;
+    const Point there = point_at(scene_, light.place, light.position, -direction);
+    const glm::dvec3 radiance = chance_to_stop(scene_, light.place) * emitted(there);
+    const double facing = glm::dot(there.face, there.eye);
+    if (radiance == glm::dvec3(0) || facing == 0) return glm::dvec3(0);
+    const double relative = epsilon_ / distance;
+    const double passes = passing({p.position, way}, relative, 1 - relative);
+    const double by_light = light.density * distance * distance / facing;
+    return passes * part * radiance * transmittance(medium_beyond(p, direction, medium), distance) /
+           (by_light + scattering.density(direction));
   }
 
-  // One light, and one point on it by area. By the balance heuristic: Veach & Guibas 1995.
-  glm::dvec3 direct(const Point& p, Random& random) const {
-    if (lights_.empty()) return glm::dvec3(0);
-    const Choice choice = choose_light(p.position, random);
-    const Triangle& light = scene_.triangles[choice.light->triangle];
-    const double root = std::sqrt(random());
-    const double part = random();
-    const glm::dvec3 target = (1 - root) * glm::dvec3(light.position[0]) +
-                              root * (1 - part) * glm::dvec3(light.position[1]) +
-                              root * part * glm::dvec3(light.position[2]);
-    const glm::dvec3 way = target - p.position;
-    const double distance2 = glm::dot(way, way);
-    const glm::dvec3 direction = way / std::sqrt(distance2);
-    const double facing = -glm::dot(glm::normalize(area_vector(light.position)), direction);
-    const glm::dvec3 radiance = emitted(scene_.materials[light.material], facing > 0);
-    if (glm::dot(direction, p.normal) <= 0 || glm::dot(direction, p.face) <= 0 || radiance == glm::dvec3(0)) {
-      return glm::dvec3(0);
-    }
-    const double relative = epsilon_ / std::sqrt(distance2);
-    if (bvh_.closest({p.position, way}, relative, 1 - relative)) return glm::dvec3(0);
-    const double by_light = choice.chance / area_of(light) * distance2 / std::abs(facing);
-    return reflect(*p.material, p.normal, direction, p.eye) * radiance *
-           (glm::dot(direction, p.normal) / (by_light + density(p, direction)));
+  glm::dvec3 from_environment(const Point& p, const Scattering& scattering, const Material* medium,
+                              Random& random) const {
+    const Environment::Sample sky = environment_->sample(random);
+    const glm::dvec3 part = scattered_part(p, sky.direction);
+    if (part == glm::dvec3(0)) return part;
+    return passing({p.position, sky.direction}, epsilon_, kInfinity) * part *
+           environment_->radiance(sky.direction) *
+           transmittance(medium_beyond(p, sky.direction, medium), kInfinity) /
+           (sky.density + scattering.density(sky.direction));
   }
 
-  // Half of all directions go by the cosine, half by the microfacets; all by the cosine where there are none.
-  static glm::dvec3 scattered(const Point& p, Random& random) {
-    const double phi = 2 * kPi * random();
-    const double u = random();
-    if (!has_lobe(*p.material) || random() < 0.5) return about(p.normal, std::sqrt(1 - u), phi);
-    const double a2 = std::pow(double{p.material->roughness}, 4);
-    const glm::dvec3 h = about(p.normal, std::sqrt((1 - u) / (1 + (a2 - 1) * u)), phi);
-    return 2 * glm::dot(p.eye, h) * h - p.eye;
-  }
-
-  static double density(const Point& p, const glm::dvec3& direction) {
-    const double by_cosine = glm::dot(direction, p.normal) / kPi;
-    if (!has_lobe(*p.material)) return by_cosine;
-    const glm::dvec3 h = glm::normalize(direction + p.eye);
-    const double n_h = glm::dot(p.normal, h);
-    return 0.5 * by_cosine + 0.5 * facet_distribution(*p.material, n_h) * n_h / (4 * glm::dot(p.eye, h));
-  }
-
-  // The direction at an angle of this cosine to n.
-  static glm::dvec3 about(const glm::dvec3& n, double cosine, double phi) {
-    const glm::dvec3 other = std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 t = glm::normalize(glm::cross(n, other));
-    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    return glm::normalize(cosine * n + sine * (std::cos(phi) * t + std::sin(phi) * glm::cross(n, t)));
+  glm::dvec3 from_punctual(const Point& p, const PunctualLight& light, const Material* medium) const {
+    const Arriving lit = arriving(light, p.position);
+    const glm::dvec3 part = scattered_part(p, lit.to_light) * lit.irradiance;
+    if (part == glm::dvec3(0)) return part;
+    return passing({p.position, lit.to_light}, epsilon_, lit.distance) * part *
+           transmittance(medium_beyond(p, lit.to_light, medium), lit.distance);
   }
 
   const Scene& scene_;
   Options options_;
   Bvh bvh_;
-  std::vector<Light> lights_;
+  AreaLights area_lights_;
+  std::optional<Environment> environment_;
   double epsilon_ = 0;
 };
 

@@ -1,7 +1,8 @@
 // An independent check of the renderer: a path tracer on the CPU in double precision. It takes the scene's
 // plain data and shares no code with the engine or its shaders: its own intersection, materials, light
-// samples, random numbers. To be read in five minutes: bvh.cpp finds hits, material.cpp is glTF's appendix B,
-// path_tracer.cpp follows paths.
+// samples, random numbers. To be read in ten minutes: path_tracer.cpp follows paths. bvh.cpp finds hits, and
+// surface.cpp what is there, with texture.cpp and shading_normal.cpp. material.cpp is glTF's appendix B with
+// its extensions, and scattering.cpp draws directions by it. lights.cpp and environment.cpp are what shines.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -19,8 +20,9 @@ struct Options {
   int max_bounces = 5;  // scattering events; no Russian roulette
   int samples = 64;     // per pixel
   std::uint64_t seed = 1;
-  glm::dvec3 environment{0};  // radiance from outside of the scene, which paths run into
-  // Light samples beside the emission that paths run into, each weighted by its share of both densities.
+  glm::dvec3 environment{0};  // radiance from outside of a scene that has no image of it; paths run into it
+  // Light samples beside the emission that paths run into, each weighted by its share of both densities. Only
+  // they find punctual lights.
   bool sample_lights = true;
 };
 
