@@ -8,6 +8,7 @@
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
 #include "engine/gltf/overlaps.h"
+#include "engine/gltf/texture.h"
 #include "engine/gltf_document/document.h"
 
 namespace qtrace {
@@ -20,6 +21,7 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);
+  add_textures(source, limits, scene);
   std::vector<PlacedNode> nodes = with_instances(source, place_nodes(source, view.scene), limits.primitives);
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
