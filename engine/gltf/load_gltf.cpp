@@ -3,6 +3,7 @@
 #include "engine/gltf/camera.h"
 #include "engine/gltf/duplicates.h"
 #include "engine/gltf/instances.h"
+#include "engine/gltf/light.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
 #include "engine/gltf/node.h"
@@ -26,6 +27,7 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
   const float extent = add_objects(source, nodes, scene);
+  scene.lights = read_lights(source, nodes);
   add_camera(source, nodes, view, scene);
   drop_duplicates(source, scene);
   cut_overlaps(source, scene, extent, limits.triangles);

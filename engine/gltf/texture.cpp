@@ -4,6 +4,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -99,6 +100,19 @@ void add_textures(Source& source, const SceneLimits& limits, Scene& scene) {
       if (use.slot == TextureSlot::clearcoat_normal) material.clearcoat_normal_scale = use.scale;
     }
   }
+}
+
+bool reads_uv_set(const Material& material, std::size_t set) {
+  return std::ranges::any_of(material.textures, [set](const std::optional<Texture>& texture) {
+    return texture.has_value() && texture->uv_set == set;
+  });
+}
+
+const Texture* normal_texture(const Material& material) {
+  for (const TextureSlot slot : {TextureSlot::normal, TextureSlot::clearcoat_normal}) {
+    if (material.texture(slot)) return &*material.texture(slot);
+  }
+  return nullptr;
 }
 
 }  // namespace qtrace::gltf
