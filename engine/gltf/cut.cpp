@@ -24,17 +24,43 @@ std::vector<Polygon> without(const std::vector<Polygon>& parts, const Prism& win
   return rest;
 }
 
-void add_part(const Triangle& whole, const Polygon& part, std::vector<Triangle>& triangles) {
+// Of a value that is linear over a triangle, that at a corner of a part of it.
+template <class T>
+T at(const Corner& corner, const std::array<T, 3>& values) {
+  const glm::vec3 b(corner.barycentric);
+  return b.x * values[0] + b.y * values[1] + b.z * values[2];
+}
+
+TriangleAttributes attributes_of(const TriangleAttributes& whole,
+                                 const std::array<const Corner*, 3>& corners) {
+  TriangleAttributes piece;
+  for (std::size_t k = 0; k < 3; ++k) {
+    piece.uv1[k] = at(*corners[k], whole.uv1);
+    piece.color[k] = at(*corners[k], whole.color);
+    const glm::vec4 tangent = at(*corners[k], whole.tangent);
+    const float length = glm::length(glm::vec3(tangent));
+    const glm::vec3 direction = length > 0 ? glm::vec3(tangent) / length : glm::vec3(whole.tangent[0]);
+    piece.tangent[k] = {direction, tangent.w < 0 ? -1.0F : 1.0F};
+  }
+  return piece;
+}
+
+void add_part(const Triangle& whole, const Polygon& part, std::vector<Triangle>& triangles,
+              std::vector<TriangleAttributes>& attributes) {
   for (std::size_t i = 2; i < part.size(); ++i) {
     Triangle piece = whole;
     const std::array<const Corner*, 3> corners{&part[0], &part[i - 1], &part[i]};
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec3 b(corners[k]->barycentric);
       piece.position[k] = corners[k]->position;
-      piece.normal[k] = glm::normalize(b.x * whole.normal[0] + b.y * whole.normal[1] + b.z * whole.normal[2]);
-      piece.uv[k] = b.x * whole.uv[0] + b.y * whole.uv[1] + b.z * whole.uv[2];
+      piece.normal[k] = glm::normalize(at(*corners[k], whole.normal));
+      piece.uv[k] = at(*corners[k], whole.uv);
     }
-    if (area_of(piece) > 0) triangles.push_back(piece);
+    if (area_of(piece) <= 0) continue;
+    if (whole.attributes != kNoAttributes) {
+      piece.attributes = static_cast<std::uint32_t>(attributes.size());
+      attributes.push_back(attributes_of(attributes[whole.attributes], corners));
+    }
+    triangles.push_back(piece);
   }
 }
 
@@ -59,7 +85,7 @@ void cut_out(const Source& source, Scene& scene, std::vector<Cut> cuts, double r
           "which is the most supported",
           max_triangles);
     }
-    for (const Polygon& part : parts) add_part(whole, part, triangles);
+    for (const Polygon& part : parts) add_part(whole, part, triangles, scene.attributes);
   });
 }
 

@@ -70,11 +70,32 @@ std::string middle_of(const Scene& scene, std::uint32_t index) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", middle.x, middle.y, middle.z);
 }
 
+// The same of texture coordinates and colours, in the order in which the corners are sorted.
+bool have_equal_corners(const Scene& scene, const Triangle& a, const Triangle& b) {
+  const auto attributes = [&scene](const Triangle& triangle) {
+    return triangle.attributes == kNoAttributes ? TriangleAttributes()
+                                                : scene.attributes[triangle.attributes];
+  };
+  const TriangleAttributes of_a = attributes(a), of_b = attributes(b);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(b.position, a.position[i]) - b.position.begin());
+    if (a.uv[i] != b.uv[k] || of_a.uv1[i] != of_b.uv1[k] || of_a.color[i] != of_b.color[k]) return false;
+  }
+  return true;
+}
+
+bool shine_alike(const Scene& scene, const Triangle& a, const Triangle& b) {
+  Material of_a = scene.materials[a.material], of_b = scene.materials[b.material];
+  if (emit_alike(of_a, of_b)) return true;
+  of_a.name = of_b.name;
+  return of_a == of_b && have_equal_corners(scene, a, b);
+}
+
 void check_emission(const Source& source, const Scene& scene, const std::vector<Duplicate>& duplicates) {
   for (const Duplicate& d : duplicates) {
     source.check(
-        emit_alike(scene.materials[scene.triangles[d.original].material],
-                   scene.materials[scene.triangles[d.triangle].material]),
+        shine_alike(scene, scene.triangles[d.original], scene.triangles[d.triangle]),
         "{} and {}, about {}, have the same corners but do not emit alike; only one of them would be right",
         triangle_label(scene, d.original), triangle_label(scene, d.triangle), middle_of(scene, d.original));
   }

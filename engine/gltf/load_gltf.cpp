@@ -3,11 +3,13 @@
 #include "engine/gltf/camera.h"
 #include "engine/gltf/duplicates.h"
 #include "engine/gltf/instances.h"
+#include "engine/gltf/light.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/mesh.h"
 #include "engine/gltf/node.h"
 #include "engine/gltf/origin.h"
 #include "engine/gltf/overlaps.h"
+#include "engine/gltf/texture.h"
 #include "engine/gltf_document/document.h"
 
 namespace qtrace {
@@ -20,10 +22,12 @@ Scene make_scene(FileContent content, const std::filesystem::path& file, const V
   Scene scene;
   scene.name = file.stem().string();
   scene.materials = read_materials(source);
+  add_textures(source, limits, scene);
   std::vector<PlacedNode> nodes = with_instances(source, place_nodes(source, view.scene), limits.primitives);
   scene.triangles.reserve(count_triangles(source, nodes, limits));
   scene.origin = centre_nodes(source, nodes);
   const float extent = add_objects(source, nodes, scene);
+  scene.lights = read_lights(source, nodes);
   add_camera(source, nodes, view, scene);
   drop_duplicates(source, scene);
   cut_overlaps(source, scene, extent, limits.triangles);

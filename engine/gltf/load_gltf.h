@@ -12,7 +12,7 @@ namespace qtrace {
 // Reads a .gltf or .glb file. Throws Error with the file, the node or accessor, what is wrong and what
 // would be right: unreadable or truncated files, accessors outside their buffers, indices outside the
 // vertex array, non-finite numbers, buffers outside the scene's folder, no camera where the view names no
-// place for one, required extensions that are not supported. What is legal and not modelled (textures, ...)
+// place for one, required extensions that are not supported. What is legal and not modelled
 // ends in Scene::warnings, of which there are a hundred at most.
 //
 // Objects stand in the order of a depth-first walk and are named by the node, else the mesh, else "node 7";

@@ -7,7 +7,8 @@
 
 namespace qtrace::gltf {
 
-// The file's materials in its order. Warnings name the textures and alpha modes that are not modelled.
+// The file's materials in its order, without their textures (texture.h). Error, with the material's name, for
+// factors out of their range.
 std::vector<Material> read_materials(Source& source);
 
 }  // namespace qtrace::gltf

@@ -1,10 +1,14 @@
 #include "engine/gltf/mesh.h"
 
+#include "engine/gltf/tangents.h"
+#include "engine/gltf/texture.h"
 #include "engine/gltf/triangle.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
+#include <span>
 
 namespace qtrace::gltf {
 namespace {
@@ -34,7 +38,9 @@ class ObjectBuilder {
  private:
   std::string object_name(const PlacedNode& node) const;
   std::uint32_t material_index(int index);
-  void add_primitive(const Primitive& primitive, TrianglePlacer& placer);
+  Extras wanted_extras(int material) const;
+  void warn_of_missing_uv(const Primitive& primitive, const Material& material);
+  void add_primitive(const Primitive& primitive, std::uint32_t material, TrianglePlacer& placer);
   void skip_primitive(const Primitive& primitive, const std::string& place);
   void warn_of_losses(const Losses& losses, const std::string& place);
   void finish(Object object, const std::string& place, bool is_partly_mapped);
@@ -42,6 +48,7 @@ class ObjectBuilder {
   Source& source_;
   Scene& scene_;
   std::optional<std::uint32_t> default_material_;
+  std::set<std::string> unmapped_;  // primitives that a warning has named
   float extent_ = 0;
 };
 
@@ -61,16 +68,40 @@ std::uint32_t ObjectBuilder::material_index(int index) {
   return *default_material_;
 }
 
-void ObjectBuilder::add_primitive(const Primitive& primitive, TrianglePlacer& placer) {
-  const std::uint32_t material = material_index(primitive.material());
-  const std::size_t count = primitive.triangle_count();
-  for (std::size_t i = 0; i < count; ++i) {
-    std::optional<Triangle> triangle = placer.place(primitive, i);
-    if (!triangle) continue;
-    triangle->material = material;
-    triangle->object = static_cast<std::uint32_t>(scene_.objects.size());
-    scene_.triangles.push_back(*triangle);
+Extras ObjectBuilder::wanted_extras(int material) const {
+  if (material < 0) return {.colors = true};
+  const Material& look = scene_.materials[static_cast<std::size_t>(material)];
+  return {reads_uv_set(look, 1), normal_texture(look) != nullptr, true};
+}
+
+// One mesh may hang on many nodes, and is named once.
+void ObjectBuilder::warn_of_missing_uv(const Primitive& primitive, const Material& material) {
+  const std::array has{primitive.has_uv(), primitive.has_uv1()};
+  for (std::size_t set = 0; set < has.size(); ++set) {
+    if (has[set] || !reads_uv_set(material, set)) continue;
+    if (!unmapped_.insert(fmt::format("{} {}", primitive.place(), set)).second) continue;
+    source_.warn("{} has no TEXCOORD_{}, by which material '{}' reads textures; they are read at (0, 0)",
+                 primitive.place(), set, one_line(material.name, 100));
   }
+}
+
+void ObjectBuilder::add_primitive(const Primitive& primitive, std::uint32_t material,
+                                  TrianglePlacer& placer) {
+  const Texture* const normals = normal_texture(scene_.materials[material]);
+  const bool need_attributes = normals != nullptr || reads_uv_set(scene_.materials[material], 1);
+  const std::size_t first = scene_.triangles.size(), count = primitive.triangle_count();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::optional<PlacedTriangle> placed = placer.place(primitive, i);
+    if (!placed) continue;
+    Triangle& triangle = scene_.triangles.emplace_back(placed->triangle);
+    triangle.material = material;
+    triangle.object = static_cast<std::uint32_t>(scene_.objects.size());
+    if (!need_attributes && placed->attributes.color == TriangleAttributes().color) continue;
+    triangle.attributes = static_cast<std::uint32_t>(scene_.attributes.size());
+    scene_.attributes.push_back(placed->attributes);
+  }
+  if (normals == nullptr || primitive.has_tangents()) return;
+  generate_tangents(std::span(scene_.triangles).subspan(first), normals->uv_set, scene_.attributes);
 }
 
 void ObjectBuilder::skip_primitive(const Primitive& primitive, const std::string& place) {
@@ -97,6 +128,10 @@ void ObjectBuilder::warn_of_losses(const Losses& losses, const std::string& plac
     source_.warn("{}: took the face's normal at {} of {} corners, where the file's points behind the face",
                  place, losses.opposed_normals, corners);
   }
+  if (losses.odd_colors > 0) {
+    source_.warn("{}: the COLOR_0 of {} of {} corners is outside of 0 to 1; it is clamped", place,
+                 losses.odd_colors, corners);
+  }
 }
 
 void ObjectBuilder::finish(Object object, const std::string& place, bool is_partly_mapped) {
@@ -107,7 +142,10 @@ void ObjectBuilder::finish(Object object, const std::string& place, bool is_part
   }
   if (is_partly_mapped) {
     source_.warn("{}: only some primitives have TEXCOORD_0, so the object counts as having no UV map", place);
-    for (std::size_t i = object.first_triangle; i < scene_.triangles.size(); ++i) scene_.triangles[i].uv = {};
+    for (std::size_t i = object.first_triangle; i < scene_.triangles.size(); ++i) {
+      Triangle& triangle = scene_.triangles[i];
+      if (!reads_uv_set(scene_.materials[triangle.material], 0)) triangle.uv = {};
+    }
   }
   scene_.objects.push_back(std::move(object));
 }
@@ -122,13 +160,16 @@ void ObjectBuilder::add(const PlacedNode& node, const NodeTransforms& transforms
   bool some_mapped = false;
   bool some_unmapped = false;
   for (std::size_t i = 0; i < source_.model.meshes[pose.mesh()].primitives.size(); ++i) {
-    const Primitive primitive = pose.primitive(i);
+    const int named = source_.model.meshes[pose.mesh()].primitives[i].material;
+    const Primitive primitive = pose.primitive(i, wanted_extras(named));
     if (!primitive.is_surface()) {
       skip_primitive(primitive, place);
       continue;
     }
     (primitive.has_uv() ? some_mapped : some_unmapped) = true;
-    add_primitive(primitive, placer);
+    const std::uint32_t material = material_index(named);
+    warn_of_missing_uv(primitive, scene_.materials[material]);
+    add_primitive(primitive, material, placer);
   }
   warn_of_losses(placer.losses(), place);
   extent_ = std::max(extent_, placer.extent());

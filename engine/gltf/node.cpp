@@ -177,6 +177,12 @@ bool is_shown(const tinygltf::Node& node) {
          extension->second.Get("visible").Get<bool>();
 }
 
+// Of KHR_lights_punctual; -1: none.
+int light_of(const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_lights_punctual");
+  return extension == node.extensions.end() ? -1 : extension->second.Get("light").GetNumberAsInt();
+}
+
 }  // namespace
 
 bool fits_float(const glm::dmat4& matrix) {
@@ -219,6 +225,7 @@ std::vector<PlacedNode> place_nodes(Source& source, const NameOrIndex& scene) {
     const tinygltf::Node& file = source.model.nodes[node.index];
     shown = shown && is_shown(file);
     node.mesh = shown ? file.mesh : -1;
+    node.light = shown ? light_of(file) : -1;
     placed.push_back(node);
     for (auto child = file.children.rbegin(); child != file.children.rend(); ++child) {
       pending.push_back({{static_cast<std::size_t>(*child), node.to_world}, shown});

@@ -47,7 +47,7 @@ struct Contact {
 };
 
 // What becomes of it.
-enum class Verdict { left, a_wins, b_wins, first_wins, moved_apart };
+enum class Verdict { left, a_wins, b_wins, first_wins, a_lifted, b_lifted, moved_apart };
 
 class Overlaps {
  public:
@@ -156,6 +156,13 @@ class Overlaps {
   Verdict announced(Verdict verdict, const Key& key, const Contact& contact, const char* reason) {
     const Part &a = part(std::get<0>(key)), &b = part(std::get<1>(key));
     const bool a_wins = verdict != Verdict::b_wins;
+    if ((a_wins ? a : b).is_see_through) {
+      source_.warn(
+          "{} and {} share an area of {:.4g} in one plane; the latter lets light pass, and is lifted off the "
+          "other",
+          name_with_material(a_wins ? b : a), name_with_material(a_wins ? a : b), contact.shared);
+      return a_wins ? Verdict::a_lifted : Verdict::b_lifted;
+    }
     source_.warn(
         "{} and {} share an area of {:.4g} in one plane; only the latter is seen there, because it {}",
         name_with_material(a_wins ? b : a), name_with_material(a_wins ? a : b), contact.shared, reason);
@@ -166,6 +173,10 @@ class Overlaps {
     if (verdict == Verdict::left) return;
     if (verdict == Verdict::moved_apart) {
       moved_.insert({a, b});
+      return;
+    }
+    if (verdict == Verdict::a_lifted || verdict == Verdict::b_lifted) {
+      moved_.insert(verdict == Verdict::a_lifted ? a : b);
       return;
     }
     const bool a_wins = verdict == Verdict::a_wins || (verdict == Verdict::first_wins && a < b);

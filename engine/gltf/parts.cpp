@@ -21,6 +21,15 @@ std::vector<std::uint32_t> looks_of(const std::vector<Material>& materials) {
   return looks;
 }
 
+bool has_textures(const Material& material) {
+  return std::ranges::any_of(material.textures, [](const auto& texture) { return texture.has_value(); });
+}
+
+bool has_colors(const Scene& scene, const Triangle& triangle) {
+  return triangle.attributes != kNoAttributes &&
+         scene.attributes[triangle.attributes].color != TriangleAttributes().color;
+}
+
 }  // namespace
 
 Parts::Parts(const Scene& scene, float margin) {
@@ -36,14 +45,17 @@ Parts::Parts(const Scene& scene, float margin) {
       const auto [place, is_new] = indices.try_emplace({triangle.object, triangle.material}, next);
       index = place->second;
       if (is_new) {
-        parts_.push_back({triangle.object,
-                          triangle.material,
-                          looks[triangle.material],
-                          emits(scene.materials[triangle.material]),
-                          0,
-                          {}});
+        const Material& material = scene.materials[triangle.material];
+        Part& part = parts_.emplace_back();
+        part.object = triangle.object;
+        part.material = triangle.material;
+        part.look = looks[triangle.material];
+        part.emits = gltf::emits(material);
+        part.is_see_through = gltf::is_see_through(material);
+        part.is_patterned = has_textures(material);
       }
     }
+    parts_[index].is_patterned = parts_[index].is_patterned || has_colors(scene, triangle);
     parts_[index].area += area_of(triangle);
     parts_[index].box.add(box_of(triangle, margin));
     part_of_.push_back(index);

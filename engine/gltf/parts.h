@@ -11,9 +11,17 @@ namespace qtrace::gltf {
 
 inline bool emits(const Material& material) { return material.emission != glm::vec3(0.0F); }
 
-// Of two that emit: the same, and to as many sides.
+// What lies behind it in the same plane is seen.
+inline bool is_see_through(const Material& material) {
+  return material.alpha_mode != AlphaMode::opaque || material.transmission > 0;
+}
+
+// Of two that emit: the same everywhere, and to as many sides.
 inline bool emit_alike(const Material& a, const Material& b) {
-  return a.emission == b.emission && a.double_sided == b.double_sided;
+  const auto is_even = [](const Material& material) {
+    return !material.texture(TextureSlot::emission) && !is_see_through(material);
+  };
+  return a.emission == b.emission && a.double_sided == b.double_sided && is_even(a) && is_even(b);
 }
 
 struct Part {
@@ -21,6 +29,8 @@ struct Part {
   std::uint32_t material = 0;
   std::uint32_t look = 0;  // the first material that differs from its own in no more than its name
   bool emits = false;
+  bool is_see_through = false;
+  bool is_patterned = false;  // it has textures or vertex colours: two that are alike may look different
   double area = 0;
   Box box;  // with the margin around it
 };
@@ -36,7 +46,9 @@ class Parts {
   const Part& of(std::uint32_t triangle) const { return parts_[part_of_[triangle]]; }
 
   // Whether the order of two surfaces in one plane would show.
-  static bool differ(const Part& a, const Part& b) { return a.emits || b.emits || a.look != b.look; }
+  static bool differ(const Part& a, const Part& b) {
+    return a.emits || b.emits || a.look != b.look || (&a != &b && (a.is_patterned || b.is_patterned));
+  }
 
   // The triangles that emit, or come into the box of a part that differs from theirs: no others can overlap
   // with one that does.

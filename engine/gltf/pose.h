@@ -28,7 +28,9 @@ class Pose {
   Pose(const Source& source, const PlacedNode& node, const NodeTransforms& transforms);
 
   std::size_t mesh() const { return mesh_; }
-  Primitive primitive(std::size_t i) const { return {source_, mesh_, i, weights_}; }
+  Primitive primitive(std::size_t i, const Extras& extras = {}) const {
+    return {source_, mesh_, i, weights_, extras};
+  }
 
   // Whether all of its vertices move by to_world() alone. Of a skinned one each has a transform of its own,
   // and the node's does not count (glTF 2.0, section 3.7.3.3).

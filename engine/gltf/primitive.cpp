@@ -21,7 +21,7 @@ void check_corner_count(const Source& source, const std::string& place, int mode
 }  // namespace
 
 Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t primitive_index,
-                     const std::vector<double>& weights) {
+                     const std::vector<double>& weights, const Extras& extras) {
   const tinygltf::Mesh& mesh = source.model.meshes[mesh_index];
   const tinygltf::Primitive& file = mesh.primitives[primitive_index];
   place_ = fmt::format("{} primitive {}", label("mesh", mesh_index, mesh.name), primitive_index);
@@ -38,10 +38,28 @@ Primitive::Primitive(const Source& source, std::size_t mesh_index, std::size_t p
   open("TEXCOORD_0", kUvLayout, uv_);
   if (normals_) check_count(source, *normals_);
   if (uv_) check_count(source, *uv_);
+  open_extras(source, file, extras);
   open_targets(source, file, weights);
   open_joints(source, file);
   if (file.indices >= 0) indices_.emplace(source, file.indices, kIndexLayout, place_ + " indices");
   check_corner_count(source, place_, mode_, corner_count());
+}
+
+void Primitive::open_extras(const Source& source, const tinygltf::Primitive& file, const Extras& extras) {
+  const auto open = [&](bool is_wanted, const char* name, const Layout& layout,
+                        std::optional<AccessorView>& view) {
+    const auto attribute = file.attributes.find(name);
+    if (!is_wanted || attribute == file.attributes.end()) return;
+    view.emplace(source, attribute->second, layout, fmt::format("{} {}", place_, name));
+    check_count(source, *view);
+  };
+  open(extras.uv1, "TEXCOORD_1", kUvLayout, uv1_);
+  open(extras.tangents, "TANGENT", kTangentLayout, tangents_);
+  const auto color = file.attributes.find("COLOR_0");
+  if (color == file.attributes.end()) return;
+  const auto accessor = static_cast<std::size_t>(color->second);
+  has_opacity_ = source.model.accessors.at(accessor).type != TINYGLTF_TYPE_VEC3;
+  open(extras.colors, "COLOR_0", has_opacity_ ? kColor4Layout : kColor3Layout, colors_);
 }
 
 void Primitive::check_count(const Source& source, const AccessorView& attribute) const {
@@ -68,6 +86,7 @@ void Primitive::open_targets(const Source& source, const tinygltf::Primitive& fi
     };
     open("POSITION", kPositionLayout, target.positions);
     open("NORMAL", kNormalLayout, target.normals);
+    if (tangents_) open("TANGENT", kNormalLayout, target.tangents);
   }
 }
 
@@ -156,6 +175,24 @@ glm::vec3 Primitive::normal(const Source& source, std::uint32_t vertex) const {
 
 glm::vec2 Primitive::uv(const Source& source, std::uint32_t vertex) const {
   return uv_->vec2(source, vertex);
+}
+
+glm::vec2 Primitive::uv1(const Source& source, std::uint32_t vertex) const {
+  return uv1_->vec2(source, vertex);
+}
+
+// Morph targets turn tangents, and do not change their handedness (glTF 2.0, section 3.7.2.2).
+glm::vec4 Primitive::tangent(const Source& source, std::uint32_t vertex) const {
+  const glm::vec4 base = tangents_->vec4(source, vertex);
+  glm::dvec3 sum(base);
+  for (const Target& target : targets_) {
+    if (target.tangents) sum += target.weight * glm::dvec3(target.tangents->vec3(source, vertex));
+  }
+  return {glm::vec3(sum), base.w};
+}
+
+glm::vec4 Primitive::color(const Source& source, std::uint32_t vertex) const {
+  return has_opacity_ ? colors_->vec4(source, vertex) : glm::vec4(colors_->vec3(source, vertex), 1);
 }
 
 }  // namespace qtrace::gltf

@@ -1,8 +1,11 @@
 #include "engine/gltf/triangle.h"
 
+#include "engine/gltf/tangents.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -41,7 +44,7 @@ bool TrianglePlacer::is_mirrored(const Primitive& primitive, std::uint32_t verte
                                    : glm::determinant(glm::dmat3(pose_.to_world(primitive, vertex))) < 0;
 }
 
-std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::size_t index) {
+std::optional<PlacedTriangle> TrianglePlacer::place(const Primitive& primitive, std::size_t index) {
   std::array<std::uint32_t, 3> vertices = primitive.triangle(source_, index);
   if (primitive.joins(vertices)) return std::nullopt;
   ++losses_.triangles;
@@ -59,7 +62,20 @@ std::optional<Triangle> TrianglePlacer::place(const Primitive& primitive, std::s
     triangle.normal[i] = world_normal(primitive, vertices[i], face_normal);
     if (primitive.has_uv()) triangle.uv[i] = primitive.uv(source_, vertices[i]);
   }
-  return triangle;
+  return PlacedTriangle{triangle, attributes(primitive, vertices, triangle)};
+}
+
+TriangleAttributes TrianglePlacer::attributes(const Primitive& primitive,
+                                              const std::array<std::uint32_t, 3>& vertices,
+                                              const Triangle& triangle) {
+  TriangleAttributes result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (primitive.has_uv1()) result.uv1[i] = primitive.uv1(source_, vertices[i]);
+    if (primitive.has_colors()) result.color[i] = color(primitive, vertices[i]);
+    if (primitive.has_tangents())
+      result.tangent[i] = world_tangent(primitive, vertices[i], triangle.normal[i]);
+  }
+  return result;
 }
 
 void TrianglePlacer::note_flat(const Primitive& primitive, std::size_t index) {
@@ -102,6 +118,25 @@ glm::vec3 TrianglePlacer::world_normal(const Primitive& primitive, std::uint32_t
   if (length > 0 && glm::dot(world, face_normal) > 0) return world / length;
   ++losses_.opposed_normals;
   return face_normal;
+}
+
+// Along the surface it is carried by the transform itself. Where that mirrors, the sense of the normal, the
+// tangent and the third axis turns round.
+glm::vec4 TrianglePlacer::world_tangent(const Primitive& primitive, std::uint32_t vertex,
+                                        const glm::vec3& normal) const {
+  const glm::vec4 local = primitive.tangent(source_, vertex);
+  const glm::dvec3 world = glm::dmat3(pose_.to_world(primitive, vertex)) * glm::dvec3(glm::vec3(local));
+  const float side = local.w < 0 ? -1.0F : 1.0F;
+  return {along_surface(world, normal), is_mirrored(primitive, vertex) ? -side : side};
+}
+
+// glTF 2.0, section 3.7.2.1, has colours clamped.
+glm::vec4 TrianglePlacer::color(const Primitive& primitive, std::uint32_t vertex) {
+  constexpr float kRounding = 1e-3F;
+  const glm::vec4 file = primitive.color(source_, vertex);
+  const glm::vec4 meant = glm::clamp(file, 0.0F, 1.0F);
+  if (glm::any(glm::greaterThan(glm::abs(file - meant), glm::vec4(kRounding)))) ++losses_.odd_colors;
+  return meant;
 }
 
 }  // namespace qtrace::gltf

@@ -73,6 +73,10 @@ void check_extent(const Source& source, const tinygltf::Accessor& accessor, cons
 const Layout kPositionLayout{TINYGLTF_TYPE_VEC3, kPosition, "VEC3 of float, or of bytes or shorts"};
 const Layout kNormalLayout{TINYGLTF_TYPE_VEC3, kNormal, "VEC3 of float, or of normalized bytes or shorts"};
 const Layout kUvLayout{TINYGLTF_TYPE_VEC2, kPosition, "VEC2 of float, or of bytes or shorts"};
+const Layout kTangentLayout{TINYGLTF_TYPE_VEC4, kNormal, "VEC4 of float, or of normalized bytes or shorts"};
+const Layout kColor3Layout{TINYGLTF_TYPE_VEC3, kWeights,
+                           "VEC3 or VEC4 of float, or of normalized unsigned bytes or shorts"};
+const Layout kColor4Layout{TINYGLTF_TYPE_VEC4, kWeights, kColor3Layout.text};
 const Layout kRotationLayout{TINYGLTF_TYPE_VEC4, kNormal, "VEC4 of float, or of normalized bytes or shorts"};
 const Layout kJointsLayout{TINYGLTF_TYPE_VEC4, kJoints, "VEC4 of unsigned bytes or shorts"};
 const Layout kWeightsLayout{TINYGLTF_TYPE_VEC4, kWeights,

@@ -32,7 +32,10 @@ struct Layout {
 // With those of KHR_mesh_quantization.
 extern const Layout kPositionLayout;
 extern const Layout kNormalLayout;
-extern const Layout kUvLayout;        // TEXCOORD_0
+extern const Layout kUvLayout;        // TEXCOORD_0 and TEXCOORD_1
+extern const Layout kTangentLayout;   // TANGENT: a direction and 1 or -1
+extern const Layout kColor3Layout;    // COLOR_0 without opacity
+extern const Layout kColor4Layout;    // COLOR_0
 extern const Layout kIndexLayout;     // indices
 extern const Layout kRotationLayout;  // unit quaternions x, y, z, w
 extern const Layout kJointsLayout;    // JOINTS_0 and further sets

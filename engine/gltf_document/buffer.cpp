@@ -1,67 +1,14 @@
 #include "engine/gltf_document/buffer.h"
 
+#include "engine/gltf_document/uri.h"
 #include "engine/gltf_document/usage.h"
-
-#include <algorithm>
-#include <charconv>
-#include <system_error>
 
 namespace qtrace::gltf {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string percent_decoded(std::string_view uri) {
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned char code = 0;
-    const char* digits = uri.data() + i + 1;
-    const bool is_escape = uri[i] == '%' && i + 2 < uri.size() &&
-                           std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-    path += is_escape ? static_cast<char>(code) : uri[i];
-    if (is_escape) i += 2;
-  }
-  return path;
-}
-
-// A scene must not read files that are none of its business, whatever its author wrote.
-fs::path resolve(const Source& source, const std::string& buffer, const std::string& uri,
-                 const fs::path& folder) {
-  const std::string decoded = percent_decoded(uri);
-  source.check(decoded.find("://") == std::string::npos && decoded.find('\0') == std::string::npos,
-               "{}: '{}' is not the path of a file; a relative path would be right", buffer, uri);
-  const fs::path relative(decoded);
-  source.check(relative.is_relative(), "{}: '{}' is an absolute path; a relative path would be right", buffer,
-               uri);
-  std::error_code folder_error;
-  std::error_code file_error;
-  const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, folder_error);
-  const fs::path file = fs::weakly_canonical(root / relative, file_error);
-  source.check(!folder_error && !file_error, "{}: '{}' cannot be resolved", buffer, uri);
-  const fs::path inside = file.lexically_relative(root);
-  source.check(!inside.empty() && *inside.begin() != "..",
-               "{}: '{}' leaves the scene's folder; a file inside it would be right", buffer, uri);
-  return file;
-}
-
-// tinygltf decodes none but these media types. The bytes of others are no different.
-std::vector<unsigned char> decode_data_uri(Source& source, const std::string& buffer, std::string uri) {
-  constexpr std::string_view kRight = "data:application/octet-stream;base64,", kEnd = ";base64,";
-  const std::string begin = uri.substr(0, std::min<std::size_t>(uri.find(','), 60));
-  if (!tinygltf::IsDataURI(uri)) {
-    const std::size_t end = uri.find(kEnd);
-    source.check(end != std::string::npos, "{}: the data URI begins with '{}'; {} would be right", buffer,
-                 begin, kRight);
-    source.warn("{}: the data URI begins with '{}', where glTF has {}; its bytes are read all the same",
-                buffer, begin, kRight);
-    uri.replace(0, end + kEnd.size(), kRight);
-  }
-  std::vector<unsigned char> bytes;
-  std::string mime_type;
-  const bool is_decoded = tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false);
-  source.check(is_decoded, "{}: the data URI is empty or not base64", buffer);
-  return bytes;
-}
+constexpr std::string_view kDataUri = "data:application/octet-stream;base64,";
 
 void check_length(const Source& source, const std::string& buffer, std::size_t found, std::size_t declared) {
   source.check(found >= declared, "{}: byteLength declares {} bytes and there are {}", buffer, declared,
@@ -71,12 +18,12 @@ void check_length(const Source& source, const std::string& buffer, std::size_t f
 std::vector<unsigned char> load(Source& source, const std::string& buffer, const std::string& uri,
                                 std::size_t size, const fs::path& folder) {
   if (!uri.starts_with("data:")) {
-    const fs::path file = resolve(source, buffer, uri, folder);
+    const fs::path file = resolve_uri(source, buffer, uri, folder);
     const std::string what = fmt::format("{}: {}: '{}'", source.file, buffer, uri);
     check_length(source, buffer, regular_file_size(file, what), size);
     return read_bytes(file, size, what);
   }
-  std::vector<unsigned char> bytes = decode_data_uri(source, buffer, uri);
+  std::vector<unsigned char> bytes = decode_data_uri(source, buffer, uri, kDataUri);
   check_length(source, buffer, bytes.size(), size);
   bytes.resize(size);
   return bytes;

@@ -53,4 +53,11 @@ nlohmann::json parse_json(const Source& source, const std::string& text) {
   }
 }
 
+const nlohmann::json& member(const nlohmann::json& object, std::string_view name) {
+  static const nlohmann::json nothing;
+  if (!object.is_object()) return nothing;
+  const auto found = object.find(name);
+  return found == object.end() ? nothing : *found;
+}
+
 }  // namespace qtrace::gltf

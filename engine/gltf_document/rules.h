@@ -13,12 +13,13 @@ struct Rule {
   // '!' must be there.
   std::string_view path;
   Kind kind;
-  std::string_view words = {};  // one_of: the values; index: the array it points into
+  std::string_view words = {};  // one_of: the values; index: the array it points into, by its path
   std::size_t length = 0;       // numbers
 };
 
 inline constexpr std::string_view kComponentTypes = "5120 5121 5122 5123 5125 5126";
 inline constexpr std::string_view kTypes = "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4";
+inline constexpr std::string_view kWraps = "10497 33071 33648";
 
 inline constexpr Rule kRules[] = {
     {"scene", Kind::index, "scenes"},
@@ -83,19 +84,20 @@ inline constexpr Rule kRules[] = {
     {"materials/[]/pbrMetallicRoughness/baseColorFactor", Kind::numbers, {}, 4},
     {"materials/[]/pbrMetallicRoughness/metallicFactor", Kind::number},
     {"materials/[]/pbrMetallicRoughness/roughnessFactor", Kind::number},
-    {"materials/[]/pbrMetallicRoughness/baseColorTexture/index!", Kind::index, "textures"},
-    {"materials/[]/pbrMetallicRoughness/metallicRoughnessTexture/index!", Kind::index, "textures"},
-    {"materials/[]/normalTexture/index!", Kind::index, "textures"},
-    {"materials/[]/occlusionTexture/index!", Kind::index, "textures"},
-    {"materials/[]/emissiveTexture/index!", Kind::index, "textures"},
     {"materials/[]/emissiveFactor", Kind::numbers, {}, 3},
     {"materials/[]/alphaMode", Kind::one_of, "OPAQUE MASK BLEND"},
+    {"materials/[]/alphaCutoff", Kind::number},
     {"materials/[]/doubleSided", Kind::boolean},
     {"materials/[]/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
     {"materials/[]/extensions/KHR_materials_specular/specularFactor", Kind::number},
     {"materials/[]/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers, {}, 3},
-    {"materials/[]/extensions/KHR_materials_specular/specularTexture/index!", Kind::index, "textures"},
-    {"materials/[]/extensions/KHR_materials_specular/specularColorTexture/index!", Kind::index, "textures"},
+    {"materials/[]/extensions/KHR_materials_ior/ior", Kind::number},
+    {"materials/[]/extensions/KHR_materials_transmission/transmissionFactor", Kind::number},
+    {"materials/[]/extensions/KHR_materials_volume/thicknessFactor", Kind::number},
+    {"materials/[]/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
+    {"materials/[]/extensions/KHR_materials_volume/attenuationColor", Kind::numbers, {}, 3},
+    {"materials/[]/extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::number},
+    {"materials/[]/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::number},
     {"cameras/[]/name", Kind::string},
     {"cameras/[]/type!", Kind::one_of, "perspective orthographic"},
     {"cameras/[]/perspective/yfov!", Kind::number},
@@ -108,6 +110,12 @@ inline constexpr Rule kRules[] = {
     {"cameras/[]/orthographic/zfar!", Kind::number},
     {"textures/[]/source", Kind::index, "images"},
     {"textures/[]/sampler", Kind::index, "samplers"},
+    {"samplers/[]/magFilter", Kind::one_of, "9728 9729"},
+    {"samplers/[]/wrapS", Kind::one_of, kWraps},
+    {"samplers/[]/wrapT", Kind::one_of, kWraps},
+    {"images/[]/name", Kind::string},
+    {"images/[]/uri", Kind::string},
+    {"images/[]/mimeType", Kind::string},
     {"images/[]/bufferView", Kind::index, "bufferViews"},
     {"skins/[]/name", Kind::string},
     {"skins/[]/joints!/[]", Kind::index, "nodes"},
@@ -117,9 +125,42 @@ inline constexpr Rule kRules[] = {
     {"animations/[]/channels/[]/target/node", Kind::index, "nodes"},
     {"animations/[]/samplers/[]/input", Kind::index, "accessors"},
     {"animations/[]/samplers/[]/output", Kind::index, "accessors"},
+    {"nodes/[]/extensions/KHR_lights_punctual/light!", Kind::index, "extensions/KHR_lights_punctual/lights"},
     {"extensions/KHR_lights_punctual/lights/[]/name", Kind::string},
+    {"extensions/KHR_lights_punctual/lights/[]/type!", Kind::one_of, "point spot directional"},
+    {"extensions/KHR_lights_punctual/lights/[]/color", Kind::numbers, {}, 3},
+    {"extensions/KHR_lights_punctual/lights/[]/intensity", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/[]/range", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/[]/spot/innerConeAngle", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/[]/spot/outerConeAngle", Kind::number},
     {"extensionsUsed/[]", Kind::string},
     {"extensionsRequired/[]", Kind::string},
+};
+
+// Where materials name textures. kTextureRules hold at each of them.
+inline constexpr std::string_view kTexturePlaces[] = {
+    "materials/[]/pbrMetallicRoughness/baseColorTexture",
+    "materials/[]/pbrMetallicRoughness/metallicRoughnessTexture",
+    "materials/[]/normalTexture",
+    "materials/[]/occlusionTexture",
+    "materials/[]/emissiveTexture",
+    "materials/[]/extensions/KHR_materials_specular/specularTexture",
+    "materials/[]/extensions/KHR_materials_specular/specularColorTexture",
+    "materials/[]/extensions/KHR_materials_transmission/transmissionTexture",
+    "materials/[]/extensions/KHR_materials_volume/thicknessTexture",
+    "materials/[]/extensions/KHR_materials_clearcoat/clearcoatTexture",
+    "materials/[]/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+    "materials/[]/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+};
+
+inline constexpr Rule kTextureRules[] = {
+    {"index!", Kind::index, "textures"},
+    {"texCoord", Kind::integer},
+    {"scale", Kind::number},
+    {"extensions/KHR_texture_transform/offset", Kind::numbers, {}, 2},
+    {"extensions/KHR_texture_transform/rotation", Kind::number},
+    {"extensions/KHR_texture_transform/scale", Kind::numbers, {}, 2},
+    {"extensions/KHR_texture_transform/texCoord", Kind::integer},
 };
 
 }  // namespace qtrace::gltf

@@ -37,11 +37,12 @@ bool fits_float(const json& value) {
 
 void check_index(const Source& source, const json& document, const json& value, const std::string& where,
                  std::string_view target) {
-  const auto array = document.find(target);
-  const std::size_t count = array != document.end() && array->is_array() ? array->size() : 0;
+  const json::json_pointer array("/" + std::string(target));
+  const std::size_t count =
+      document.contains(array) && document.at(array).is_array() ? document.at(array).size() : 0;
   source.check(value.is_number_unsigned() && value.get<std::uint64_t>() < count,
                "{} is {}; an index below {}, the number of {}, would be right", where, found(value), count,
-               target);
+               target.substr(target.rfind('/') + 1));
 }
 
 void check_numbers(const Source& source, json& value, const std::string& where, std::size_t length) {
@@ -115,10 +116,11 @@ void visit(const Source& source, const json& document, json& value, std::string_
   if (member != value.end()) enter(std::string(name), *member);
 }
 
-// The indices of textures that materials use, and of the images of these.
+// The indices of textures that materials use, and of the images and samplers of these.
 struct UsedParts {
   std::set<std::size_t> textures;
   std::set<std::size_t> images;
+  std::set<std::size_t> samplers;
 };
 
 void add_index(const json& object, const char* name, std::set<std::size_t>& indices) {
@@ -144,7 +146,9 @@ UsedParts used_parts(const json& document) {
   const auto textures = document.find("textures");
   if (textures == document.end() || !textures->is_array()) return used;
   for (const std::size_t i : used.textures) {
-    if (i < textures->size()) add_index((*textures)[i], "source", used.images);
+    if (i >= textures->size()) continue;
+    add_index((*textures)[i], "source", used.images);
+    add_index((*textures)[i], "sampler", used.samplers);
   }
   return used;
 }
@@ -176,6 +180,8 @@ void visit_rule(Source& source, json& document, const Rule& rule, const UsedPart
   if (rule.path.starts_with("textures/"))
     return visit_unused(source, document, rule, "textures", used.textures);
   if (rule.path.starts_with("images/")) return visit_unused(source, document, rule, "images", used.images);
+  if (rule.path.starts_with("samplers/"))
+    return visit_unused(source, document, rule, "samplers", used.samplers);
   if (rule.path.starts_with("animations/")) return visit_unused(source, document, rule, "animations", {});
   visit(source, document, document, rule.path, "", rule);
 }
@@ -194,11 +200,30 @@ void check_camera(const Source& source, const json& camera, std::size_t index) {
   source.check(camera.contains(type), "cameras[{}].{} is missing", index, type);
 }
 
+// The same of a light that is a spot. A range of 0 would be tinygltf's word for none.
+void check_light(const Source& source, const json& light, std::size_t index) {
+  const std::string place = label("light", index, light.value("name", ""));
+  source.check(light.at("type") != "spot" || light.contains("spot"),
+               "{} is a spot and has no member spot; an object would be right", place);
+  source.check(!light.contains("range") || light["range"] > 0,
+               "{}: range is {}; a number above 0 would be right", place, light.value("range", 0.0));
+}
+
+void check_textures(const Source& source, json& document) {
+  for (const std::string_view place : kTexturePlaces) {
+    for (const Rule& rule : kTextureRules) {
+      const std::string path = fmt::format("{}/{}", place, rule.path);
+      visit(source, document, document, path, "", rule);
+    }
+  }
+}
+
 }  // namespace
 
 void check_json(Source& source, json& document) {
   const UsedParts used = used_parts(document);
   for (const Rule& rule : kRules) visit_rule(source, document, rule, used);
+  check_textures(source, document);
   const auto nodes = document.find("nodes");
   for (std::size_t i = 0; nodes != document.end() && i < nodes->size(); ++i) {
     check_transform(source, (*nodes)[i], i);
@@ -207,6 +232,9 @@ void check_json(Source& source, json& document) {
   for (std::size_t i = 0; cameras != document.end() && i < cameras->size(); ++i) {
     check_camera(source, (*cameras)[i], i);
   }
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (!document.contains(lights)) return;
+  for (std::size_t i = 0; i < document[lights].size(); ++i) check_light(source, document[lights][i], i);
 }
 
 }  // namespace qtrace::gltf

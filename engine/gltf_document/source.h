@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/text.h"
+#include "engine/gltf_document/texture.h"
 
 #include <tiny_gltf.h>
 
@@ -20,6 +21,7 @@ struct Source {
   tinygltf::Model model;
   std::vector<std::string> warnings;
   std::size_t more_warnings = 0;  // that were left out
+  Textures textures;
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {

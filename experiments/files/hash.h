@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace qtrace::experiments {
 
@@ -22,6 +23,14 @@ class Hasher {
   void add(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     XXH3_128bits_update(state_.get(), &value, sizeof(T));
+  }
+
+  // The bytes of many such values, and how many they are.
+  template <class T>
+  void add_all(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    add(values.size());
+    XXH3_128bits_update(state_.get(), values.data(), values.size() * sizeof(T));
   }
 
   // Of a member that came after hashes of its struct had been kept: `implied` is what programs without it

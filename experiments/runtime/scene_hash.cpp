@@ -5,9 +5,53 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 
 namespace qtrace::experiments {
 namespace {
+
+// All that triangles have had from the start: the members before `attributes`.
+void add_triangle(Hasher& hasher, const Triangle& triangle) {
+  constexpr std::size_t kBytes = offsetof(Triangle, attributes);
+  static_assert(kBytes == 26 * 4, "padding would make equal triangles hash differently");
+  std::array<std::byte, kBytes> bytes;
+  std::memcpy(bytes.data(), &triangle, kBytes);
+  hasher.add(bytes);
+}
+
+void add_texture(Hasher& hasher, const Texture& texture) {
+  hasher.add(texture.image);
+  hasher.add(texture.wrap_u);
+  hasher.add(texture.wrap_v);
+  hasher.add(texture.is_nearest);
+  hasher.add(texture.uv_set);
+  hasher.add(texture.image_from_uv);
+}
+
+void add_later_members(Hasher& hasher, const Material& material) {
+  const Material implied;
+  const auto add = [&](std::string_view name, const auto& value, const auto& otherwise) {
+    hasher.add_later(name, value, otherwise);
+  };
+  add("ior", material.ior, implied.ior);
+  add("opacity", material.opacity, implied.opacity);
+  add("alpha_mode", material.alpha_mode, implied.alpha_mode);
+  add("alpha_cutoff", material.alpha_cutoff, implied.alpha_cutoff);
+  add("transmission", material.transmission, implied.transmission);
+  add("is_thin", material.is_thin, implied.is_thin);
+  add("attenuation_color", material.attenuation_color, implied.attenuation_color);
+  add("attenuation_distance", material.attenuation_distance, implied.attenuation_distance);
+  add("clearcoat", material.clearcoat, implied.clearcoat);
+  add("clearcoat_roughness", material.clearcoat_roughness, implied.clearcoat_roughness);
+  add("is_unlit", material.is_unlit, implied.is_unlit);
+  add("normal_scale", material.normal_scale, implied.normal_scale);
+  add("clearcoat_normal_scale", material.clearcoat_normal_scale, implied.clearcoat_normal_scale);
+  for (std::size_t slot = 0; slot < material.textures.size(); ++slot) {
+    if (!material.textures[slot]) continue;
+    hasher.add(slot);
+    add_texture(hasher, *material.textures[slot]);
+  }
+}
 
 // What materials have had from the start; further members are added by Hasher::add_later().
 void add_material(Hasher& hasher, const Material& material) {
@@ -18,15 +62,38 @@ void add_material(Hasher& hasher, const Material& material) {
   hasher.add(material.specular_color);
   hasher.add(material.emission);
   hasher.add(material.double_sided);
+  add_later_members(hasher, material);
 }
 
-// All that triangles have had from the start: the members before `attributes`.
-void add_triangle(Hasher& hasher, const Triangle& triangle) {
-  constexpr std::size_t kBytes = offsetof(Triangle, attributes);
-  static_assert(kBytes == 26 * 4, "padding would make equal triangles hash differently");
-  std::array<std::byte, kBytes> bytes;
-  std::memcpy(bytes.data(), &triangle, kBytes);
-  hasher.add(bytes);
+void add_image(Hasher& hasher, const TextureImage& image) {
+  hasher.add(image.width);
+  hasher.add(image.height);
+  hasher.add_all(image.texels);
+}
+
+void add_attributes(Hasher& hasher, const Scene& scene) {
+  static_assert(sizeof(TriangleAttributes) == 30 * 4, "padding would make equal attributes hash differently");
+  hasher.add_all(scene.attributes);
+  for (const Triangle& triangle : scene.triangles) hasher.add(triangle.attributes);
+}
+
+void add_light(Hasher& hasher, const PunctualLight& light) {
+  hasher.add(light.kind);
+  hasher.add(light.position);
+  hasher.add(light.direction);
+  hasher.add(light.intensity);
+  hasher.add(light.range);
+  hasher.add(light.inner_cone_angle);
+  hasher.add(light.outer_cone_angle);
+}
+
+// What scenes had not from the start: it leaves no trace where there is none.
+void add_later_parts(Hasher& hasher, const Scene& scene) {
+  if (!scene.attributes.empty()) add_attributes(hasher, scene);
+  hasher.add_later("images", scene.images.size(), std::size_t{0});
+  for (const TextureImage& image : scene.images) add_image(hasher, image);
+  hasher.add_later("lights", scene.lights.size(), std::size_t{0});
+  for (const PunctualLight& light : scene.lights) add_light(hasher, light);
 }
 
 }  // namespace
@@ -46,6 +113,7 @@ std::string scene_hash(const Scene& scene) {
   hasher.add(scene.camera.world_from_camera);
   hasher.add(scene.camera.vertical_fov);
   hasher.add_later("film_height", scene.camera.film_height, 0.0F);
+  add_later_parts(hasher, scene);
   return hasher.digest();
 }
 

@@ -16,9 +16,36 @@ const char* const kFile = "/nonexistent/folder/fuzz.gltf";
 
 // What the sanitizers can read in a second.
 const SceneLimits kLimits{std::size_t{1} << 16U, std::size_t{1} << 13U, std::size_t{1} << 24U,
-                          std::size_t{1} << 24U};
+                          std::size_t{1} << 24U, std::size_t{1} << 16U};
 
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool has_normals(const Material& material) {
+  return material.texture(TextureSlot::normal) || material.texture(TextureSlot::clearcoat_normal);
+}
+
+void expect_usable_attributes(const Scene& scene) {
+  for (const Triangle& triangle : scene.triangles) {
+    const bool needs_tangents = has_normals(scene.materials[triangle.material]);
+    if (triangle.attributes == kNoAttributes) {
+      expect(!needs_tangents, "a triangle with a texture of normals must have tangents", "none");
+      continue;
+    }
+    expect(triangle.attributes < scene.attributes.size(), "indices must stay inside their arrays",
+           "attributes");
+    const TriangleAttributes& attributes = scene.attributes[triangle.attributes];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec4 &tangent = attributes.tangent[i], &color = attributes.color[i];
+      expect(std::isfinite(attributes.uv1[i].x) && std::isfinite(attributes.uv1[i].y),
+             "coordinates must be finite", "they are not");
+      for (int c = 0; c < 4; ++c)
+        expect(color[c] >= 0 && color[c] <= 1.0001F, "colours must be from 0 to 1", std::to_string(color[c]));
+      const bool is_unit = std::abs(glm::length(glm::vec3(tangent)) - 1) < 1e-3 && std::abs(tangent.w) == 1;
+      expect(!needs_tangents || is_unit, "tangents must have length 1",
+             std::to_string(glm::length(glm::vec3(tangent))));
+    }
+  }
+}
 
 void expect_usable(const Scene& scene) {
   for (const std::string& warning : scene.warnings) expect_message(warning);
@@ -35,6 +62,7 @@ void expect_usable(const Scene& scene) {
              std::to_string(glm::length(triangle.normal[i])));
     }
   }
+  expect_usable_attributes(scene);
   std::size_t next = 0;
   for (const Object& object : scene.objects) {
     expect(object.first_triangle == next && object.triangle_count > 0, "objects must follow each other",
@@ -45,6 +73,15 @@ void expect_usable(const Scene& scene) {
   for (const Material& material : scene.materials) {
     expect(is_finite(material.emission) && is_finite(material.specular_color), "materials must be finite",
            material.name);
+    for (const auto& texture : material.textures) {
+      expect(!texture || (texture->image < scene.images.size() && texture->uv_set <= 1),
+             "textures must have an image", material.name);
+    }
+  }
+  for (const PunctualLight& light : scene.lights) {
+    expect(is_finite(light.position) && is_finite(light.intensity) && light.range > 0,
+           "lights must be finite", light.name);
+    expect(std::abs(glm::length(light.direction) - 1) < 1e-3, "directions must have length 1", light.name);
   }
 }
 

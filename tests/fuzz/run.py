@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Feeds the config reader and the glTF loader with bytes that libFuzzer makes up.
+"""Feeds the config reader, the glTF loader and the decoders of images with bytes that libFuzzer makes up.
 
-    ./dev fuzz [SECONDS] [--only config|gltf] [--corpus FOLDER] [--seed N]
+    ./dev fuzz [SECONDS] [--only config|gltf|image] [--corpus FOLDER] [--seed N]
 
-SECONDS for each of the two (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
+SECONDS for each of the three (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
 where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all, or answers with anything but a result or a
 clear error; the input that made it do so is kept in build/fuzz/findings. --corpus keeps what was learned for another time.
 """
@@ -84,8 +84,13 @@ def gltf_words() -> set[str]:
                     "data:application/octet-stream;base64,", "data:application/gltf-buffer;base64,"}
 
 
-SEEDS = {"config": config_seeds, "gltf": gltf_seeds}
-WORDS = {"config": config_words, "gltf": gltf_words}
+def image_words() -> set[str]:
+    """The chunks of PNG that count; the markers of JPEG are no text."""
+    return {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "JFIF", "Adobe"}
+
+
+SEEDS = {"config": config_seeds, "gltf": gltf_seeds, "image": dict}
+WORDS = {"config": config_words, "gltf": gltf_words, "image": image_words}
 
 
 def prepare(target: str, corpus: Path, dictionary: Path) -> None:

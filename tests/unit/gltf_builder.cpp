@@ -86,6 +86,20 @@ std::size_t GltfBuilder::add_indices(const std::vector<std::uint32_t>& indices, 
   return add_accessor(bytes, indices.size(), "SCALAR", component_type);
 }
 
+std::size_t GltfBuilder::add_texture(const std::string& image, const std::string& media_type) {
+  json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", image.size()}});
+  binary = padded(binary.append(image), '\0');
+  json["images"].push_back({{"bufferView", json["bufferViews"].size() - 1}, {"mimeType", media_type}});
+  json["textures"].push_back({{"source", json["images"].size() - 1}});
+  return json["textures"].size() - 1;
+}
+
+nlohmann::json& GltfBuilder::material() {
+  if (!json.contains("materials")) json["materials"] = {nlohmann::json::object()};
+  primitive_json()["material"] = 0;
+  return json["materials"][0];
+}
+
 nlohmann::json GltfBuilder::primitive(const std::vector<float>& positions) {
   return {{"attributes", {{"POSITION", add_floats("VEC3", positions)}}}};
 }

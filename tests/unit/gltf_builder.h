@@ -51,6 +51,11 @@ class GltfBuilder {
   std::size_t add_floats(const char* type, const std::vector<float>& components);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, int component_type = kUnsignedInt);
 
+  // An image in a bufferView of its own, and a texture of it; returns the texture's index.
+  std::size_t add_texture(const std::string& image, const std::string& media_type = "image/png");
+  // The first, which the first primitive has from then on.
+  nlohmann::json& material();
+
   // A primitive with POSITION alone, to be extended.
   nlohmann::json primitive(const std::vector<float>& positions);
   std::size_t add_mesh(nlohmann::json primitives, const std::string& name = "");

@@ -111,8 +111,11 @@ TEST_F(GltfMeshoptTest, ViewsThatNothingReadsMayBeOfAnyKind) {
   expect_same_as_plain();
   gltf.json["accessors"].push_back(
       {{"bufferView", view}, {"componentType", kByte}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}});
-  primitive()["attributes"]["NORMAL"] = gltf.json["accessors"].size() - 1;
-  expect_error({fmt::format("bufferView {} KHR_meshopt_compression", view)});
+  for (const char* name : {"NORMAL", "COLOR_0"}) {
+    primitive()["attributes"][name] = gltf.json["accessors"].size() - 1;
+    expect_error({fmt::format("bufferView {} KHR_meshopt_compression", view)});
+    primitive()["attributes"].erase(name);
+  }
 }
 
 TEST_F(GltfMeshoptTest, FiltersAreUndone) {

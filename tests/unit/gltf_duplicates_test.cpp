@@ -1,5 +1,6 @@
 // Emitters that lie exactly on others, and scenes far from their origin.
 #include "tests/unit/gltf_builder.h"
+#include "tests/unit/picture_files.h"
 
 namespace qtrace {
 namespace {
@@ -84,6 +85,21 @@ TEST_F(GltfDuplicates, EmittersOnWhatEmitsOtherwiseAreRefused) {
 }
 
 // Whatever their order.
+// Of the same texture the same part must lie on both.
+TEST_F(GltfDuplicates, TexturedEmittersMustHaveTheSameCoordinates) {
+  gltf.add_triangle();
+  add_second(rotated, glow, glow);
+  const std::size_t texture = gltf.add_texture(png_of(1, 2, 3));
+  for (int i = 0; i < 2; ++i) gltf.json["materials"][i]["emissiveTexture"]["index"] = texture;
+  nlohmann::json& first = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  nlohmann::json& second = gltf.json["meshes"][1]["primitives"][0]["attributes"];
+  first["TEXCOORD_0"] = gltf.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
+  second["TEXCOORD_0"] = gltf.add_floats("VEC2", {1, 0, 0, 1, 0, 0});
+  EXPECT_EQ(load().warnings, std::vector<std::string>{kDropped});
+  second["TEXCOORD_0"] = first["TEXCOORD_0"];
+  expect_error({"have the same corners but do not emit alike"});
+}
+
 TEST_F(GltfDuplicates, WhatEmitsTakesThePlaceOfWhatDoesNot) {
   for (const auto& corners : {same, rotated}) {
     gltf = GltfBuilder();

@@ -127,45 +127,121 @@ TEST_F(GltfMaterialTest, RefusesLampsWhoseSquaresNoFloatHolds) {
   expect_error({"material 'wood': emits 3e+40, "});
 }
 
-TEST_F(GltfMaterialTest, AnEmissiveTextureMakesNoLampOfItsSurface) {
-  gltf.json["textures"] = {nlohmann::json::object()};
-  material()["emissiveTexture"] = {{"index", 0}};
-  EXPECT_TRUE(load().warnings.empty()) << "black times anything is black";
-  material()["emissiveFactor"] = {1, 1, 1};
-  expect_warning(
-      "material 'wood': emits nothing, as its emissiveTexture is not modelled, and the factor alone would "
-      "make a lamp of all of its surface");
-  EXPECT_EQ(load().materials.at(0).emission, glm::vec3(0));
-}
-
-TEST_F(GltfMaterialTest, WarnsOfTexturesAndNeverReadsThem) {
-  gltf.json["extensionsUsed"] = {"KHR_materials_specular"};
-  const nlohmann::json texture = {{"index", 0}};
-  gltf.json["images"] = {{{"uri", "../../missing.png"}}, {{"bufferView", 0}, {"mimeType", "image/png"}}};
-  gltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
-  pbr()["baseColorTexture"] = texture;
-  expect_warning("material 'wood': baseColorTexture is not modelled; the factors alone are used");
-  pbr()["metallicRoughnessTexture"] = {{"index", 1}};
-  for (const char* slot : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-    material()[slot] = texture;
-  specular() = {{"specularTexture", texture}, {"specularColorTexture", texture}};
-  expect_warning(
-      "material 'wood': baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, "
-      "specularTexture, specularColorTexture are not modelled; the factors alone are "
-      "used");
-}
-
-TEST_F(GltfMaterialTest, WarnsOfTransparency) {
+TEST_F(GltfMaterialTest, OpacityCountsWhereTheAlphaModeSaysSo) {
+  pbr()["baseColorFactor"] = {1, 1, 1, 0.25};
+  material()["alphaCutoff"] = 0.75;
+  EXPECT_EQ(load().materials.at(0).alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(load().materials.at(0).opacity, 1) << "of no consequence";
   material()["alphaMode"] = "BLEND";
-  expect_warning("material 'wood': alphaMode BLEND is not modelled; the material is opaque");
+  EXPECT_EQ(load().materials.at(0).alpha_mode, AlphaMode::blend);
+  EXPECT_EQ(load().materials.at(0).opacity, 0.25F);
+  EXPECT_EQ(load().materials.at(0).alpha_cutoff, 0.5F) << "of no consequence";
+  material()["alphaMode"] = "MASK";
+  EXPECT_EQ(load().materials.at(0).alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(load().materials.at(0).alpha_cutoff, 0.75F);
+  EXPECT_TRUE(load().warnings.empty());
   material()["alphaMode"] = "GLASS";
   expect_error({"materials[0].alphaMode is \"GLASS\"; one of OPAQUE MASK BLEND"});
 }
 
+// Factors of extensions and what they are where the file does not have them.
+class GltfMaterialExtensionTest : public GltfMaterialTest {
+ protected:
+  nlohmann::json& extension(const std::string& name) {
+    gltf.json["extensionsUsed"] = {"KHR_materials_clearcoat",    "KHR_materials_ior",
+                                   "KHR_materials_transmission", "KHR_materials_unlit",
+                                   "KHR_materials_volume",       "KHR_materials_specular"};
+    gltf.json["extensionsRequired"] = gltf.json["extensionsUsed"];
+    return material()["extensions"]["KHR_materials_" + name];
+  }
+  Material read() {
+    const Scene scene = load();
+    EXPECT_TRUE(scene.warnings.empty()) << ::testing::PrintToString(scene.warnings);
+    return scene.materials.at(0);
+  }
+};
+
+TEST_F(GltfMaterialExtensionTest, EmptyOnesChangeNothing) {
+  const Material plain = read();
+  for (const char* name : {"clearcoat", "ior", "transmission", "volume", "specular"}) {
+    extension(name) = nlohmann::json::object();
+    EXPECT_EQ(read(), plain) << name;
+  }
+}
+
+TEST_F(GltfMaterialExtensionTest, ReadsGlass) {
+  extension("transmission") = {{"transmissionFactor", 0.75}};
+  EXPECT_EQ(read().transmission, 0.75F);
+  EXPECT_TRUE(read().is_thin);
+  extension("volume") = {{"thicknessFactor", 0},
+                         {"attenuationDistance", 2},
+                         {"attenuationColor", {0.25, 0.5, 1}},
+                         {"thicknessTexture", {{"index", 0}}}};
+  gltf.json["textures"] = {nlohmann::json::object()};
+  EXPECT_TRUE(read().is_thin);
+  EXPECT_EQ(read().attenuation_color, glm::vec3(1));
+  extension("volume")["thicknessFactor"] = 0.01;
+  EXPECT_FALSE(read().is_thin);
+  EXPECT_EQ(read().attenuation_distance, 2);
+  EXPECT_EQ(read().attenuation_color, glm::vec3(0.25F, 0.5F, 1));
+  extension("transmission")["transmissionFactor"] = 0;
+  EXPECT_EQ(read(), Material({.name = "wood"})) << "no light comes into the volume";
+}
+
+TEST_F(GltfMaterialExtensionTest, ReadsIndicesOfRefraction) {
+  for (const double ior : {0.0, 1.0, 1.33, 2.5}) {
+    extension("ior")["ior"] = ior;
+    EXPECT_EQ(read().ior, static_cast<float>(ior));
+  }
+  for (const double ior : {0.5, -1.5, 0.999}) {
+    extension("ior")["ior"] = ior;
+    expect_error({fmt::format("material 'wood': ior is {}; 1 or more, or 0, would be right", ior)});
+  }
+}
+
+TEST_F(GltfMaterialExtensionTest, ReadsCoats) {
+  extension("clearcoat") = {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}};
+  EXPECT_EQ(read().clearcoat, 0.5F);
+  EXPECT_EQ(read().clearcoat_roughness, 0.25F);
+}
+
+TEST_F(GltfMaterialExtensionTest, OfAnUnlitOneTheColourCounts) {
+  extension("unlit") = nlohmann::json::object();
+  extension("transmission")["transmissionFactor"] = 1;
+  pbr() = {{"baseColorFactor", {0.5, 0.25, 1, 0.5}}, {"roughnessFactor", 0.5}};
+  material()["emissiveFactor"] = {1, 1, 1};
+  material()["alphaMode"] = "BLEND";
+  Material expected;
+  expected.name = "wood";
+  expected.base_color = {0.5F, 0.25F, 1};
+  expected.opacity = 0.5F;
+  expected.alpha_mode = AlphaMode::blend;
+  expected.is_unlit = true;
+  EXPECT_EQ(read(), expected);
+}
+
+TEST_F(GltfMaterialExtensionTest, RefusesFactorsOutOfRange) {
+  const std::vector<std::pair<std::string, nlohmann::json>> factors{
+      {"/alphaCutoff", -0.5},
+      {"/extensions/KHR_materials_transmission/transmissionFactor", 1.5},
+      {"/extensions/KHR_materials_volume/thicknessFactor", -1},
+      {"/extensions/KHR_materials_volume/attenuationDistance", 0},
+      {"/extensions/KHR_materials_volume/attenuationColor", {0, 2, 0}},
+      {"/extensions/KHR_materials_clearcoat/clearcoatFactor", 1.25},
+      {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", -0.25},
+  };
+  for (const auto& [path, value] : factors) {
+    material() = {{"name", "wood"}};
+    material()[nlohmann::json::json_pointer(path)] = value;
+    expect_error({"material 'wood': " + path.substr(path.rfind('/') + 1) + " is ", "would be right"});
+  }
+}
+
 TEST_F(GltfMaterialTest, MessagesStayOnOneLine) {
   material()["name"] = "two\nlines";
-  material()["alphaMode"] = "MASK";
-  expect_warning("material 'two?lines': alphaMode MASK is not modelled; the material is opaque");
+  material()["emissiveFactor"] = {2, 0, 0};
+  expect_warning(
+      "material 'two?lines': emissiveFactor is 2 0 0, where glTF ends at 1; it is read as it stands");
   EXPECT_EQ(load().materials.at(0).name, "two\nlines");
 }
 

@@ -2,6 +2,7 @@
 #include "engine/core/check.h"
 #include "engine/gltf/load_gltf.h"
 #include "tests/unit/gltf_builder.h"
+#include "tests/unit/picture_files.h"
 
 #include <glm/geometric.hpp>
 
@@ -336,6 +337,69 @@ TEST_F(GltfOverlapsTest, SurfacesThatTouchBackToBackStay) {
   gltf.json["nodes"][2]["rotation"] = {1, 0, 0, 0};  // upside down
   EXPECT_EQ(load().triangles.size(), 4U);
   EXPECT_TRUE(load().warnings.empty());
+}
+
+// Colours and further coordinates go on as they were, as the UV map does.
+TEST_F(GltfOverlapsTest, WhatIsCutKeepsItsAttributes) {
+  add("plain", kCeiling);
+  add("glow", kLamp);
+  gltf.json["materials"][0]["normalTexture"] = {{"index", gltf.add_texture(png_of(128, 128, 255))},
+                                                {"texCoord", 1}};
+  nlohmann::json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_1"] = gltf.add_floats("VEC2", {-3, -1, 3, -1, 3, 1, -3, 1});
+  attributes["COLOR_0"] = gltf.add_floats("VEC3", {0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1});
+  const Scene scene = load();
+  std::size_t pieces = 0;
+  for (const Triangle& triangle : scene.triangles) {
+    if (triangle.material != 0) continue;
+    const TriangleAttributes& found = scene.attributes.at(triangle.attributes);
+    ++pieces;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec3 p = triangle.position[i];
+      EXPECT_NEAR(glm::distance(found.uv1[i], glm::vec2(3 * p.x, p.z)), 0, 1e-5);
+      EXPECT_NEAR(glm::distance(found.color[i], glm::vec4((p.x + 1) / 2, (p.z + 1) / 2, 1, 1)), 0, 1e-5);
+      EXPECT_NEAR(glm::distance(found.tangent[i], glm::vec4(1, 0, 0, 1)), 0, 1e-5);
+    }
+  }
+  EXPECT_GT(pieces, 4U);
+}
+
+// Cut out under a transparent decal, the wall would have a hole.
+TEST_F(GltfOverlapsTest, WhatLetsLightPassIsLiftedOff) {
+  gltf.json["materials"][2] = {{"name", "decal"}, {"alphaMode", "MASK"}};
+  add("plain", kCeiling);
+  add("decal", kLamp);
+  const Scene scene = load();
+  EXPECT_NEAR(area_of_material(scene, "plain"), 4, 1e-6);
+  for (const Triangle& triangle : scene.triangles) {
+    for (const glm::vec3& p : triangle.position) {
+      if (triangle.material == 2) {
+        EXPECT_LT(p.y, 3) << "it faces down";
+        EXPECT_GT(p.y, 2.999F);
+      } else {
+        EXPECT_EQ(p.y, 3);
+      }
+    }
+  }
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{
+                "object 'plain 0' (plain) and object 'decal 1' (decal) share an area of 0.33 in one "
+                "plane; the latter lets light pass, and is lifted off the other"});
+  gltf.json["materials"][2] = {{"name", "decal"}};
+  gltf.json["materials"][2]["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  EXPECT_NEAR(area_of_material(load(), "plain"), 4 - 0.33, 1e-6) << "an opaque one covers it";
+}
+
+// Two objects of one material look different where their textures do.
+TEST_F(GltfOverlapsTest, TexturesOfOneMaterialShow) {
+  add("plain", kCeiling);
+  add("plain", kLamp);
+  EXPECT_TRUE(load().warnings.empty());
+  gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] =
+      gltf.add_texture(png_of(1, 2, 3));
+  const Scene scene = load();
+  EXPECT_EQ(scene.warnings.size(), 1U);
+  EXPECT_NEAR(area_of_material(scene, "plain"), 4, 1e-6);
 }
 
 }  // namespace

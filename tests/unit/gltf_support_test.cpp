@@ -3,6 +3,7 @@
 #include "engine/gltf/load_gltf.h"
 #include "engine/gltf_document/support.h"
 #include "tests/unit/gltf_builder.h"
+#include "tests/unit/picture_files.h"
 
 #include <functional>
 #include <map>
@@ -19,10 +20,14 @@ namespace {
 using gltf::Treatment;
 using Change = std::function<void(GltfBuilder&)>;
 
-nlohmann::json& material(GltfBuilder& file) {
-  if (!file.json.contains("materials")) file.json["materials"] = {nlohmann::json::object()};
-  file.primitive_json()["material"] = 0;
-  return file.json["materials"][0];
+nlohmann::json& material(GltfBuilder& file) { return file.material(); }
+
+const std::string kImage = png_of(128, 128, 255);
+
+// Of an image by the coordinates that the triangle then has.
+void set_texture(GltfBuilder& file, nlohmann::json& info) {
+  file.primitive_json()["attributes"]["TEXCOORD_0"] = file.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
+  info["index"] = file.add_texture(kImage);
 }
 
 void set_extension(GltfBuilder& file, const std::string& name, nlohmann::json& owner,
@@ -63,11 +68,22 @@ const std::map<std::string_view, Change>& examples() {
        [](GltfBuilder& f) {
          f.primitive_json()["attributes"]["TEXCOORD_0"] = f.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
        }},
-      {"primitives: TEXCOORD_1, TANGENT",
+      {"primitives: TEXCOORD_1",
        [](GltfBuilder& f) {
          f.primitive_json()["attributes"]["TEXCOORD_1"] = f.add_floats("VEC2", {0, 0, 1, 0, 0, 1});
+         material(f)["normalTexture"] = {{"index", f.add_texture(kImage)}, {"texCoord", 1}};
        }},
-      {"primitives: COLOR_0", [](GltfBuilder& f) { f.primitive_json()["attributes"]["COLOR_0"] = 0; }},
+      {"primitives: TANGENT",
+       [](GltfBuilder& f) {
+         set_texture(f, material(f)["normalTexture"]);
+         f.primitive_json()["attributes"]["NORMAL"] = f.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
+         f.primitive_json()["attributes"]["TANGENT"] =
+             f.add_floats("VEC4", {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1});
+       }},
+      {"primitives: COLOR_0",
+       [](GltfBuilder& f) {
+         f.primitive_json()["attributes"]["COLOR_0"] = f.add_floats("VEC3", {1, 0, 0, 0, 1, 0, 0, 0, 1});
+       }},
       {"accessors: sparse, without a bufferView",
        [](GltfBuilder& f) {
          f.primitive_json()["attributes"]["NORMAL"] = f.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
@@ -81,30 +97,37 @@ const std::map<std::string_view, Change>& examples() {
        [](GltfBuilder& f) {
          f.json["buffers"] = {{{"byteLength", f.binary.size()}, {"uri", f.data_uri()}}};
        }},
-      {"images, samplers, textures",
+      {"textures: source, sampler",
        [](GltfBuilder& f) {
-         f.json["images"] = {{{"uri", "a.png"}}};
-         f.json["samplers"] = {nlohmann::json::object()};
-         f.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+         set_texture(f, material(f)["normalTexture"]);
+         f.json["textures"][0]["sampler"] = 0;
+         f.json["samplers"] = {{{"wrapS", 33071}, {"magFilter", 9728}}};
        }},
+      {"samplers: minFilter",
+       [](GltfBuilder& f) {
+         set_texture(f, material(f)["normalTexture"]);
+         f.json["textures"][0]["sampler"] = 0;
+         f.json["samplers"] = {{{"minFilter", 9984}}};
+       }},
+      {"images", [](GltfBuilder& f) { set_texture(f, material(f)["normalTexture"]); }},
       {"materials: baseColorFactor, metallicFactor, roughnessFactor",
        [](GltfBuilder& f) { material(f)["pbrMetallicRoughness"]["roughnessFactor"] = 0.5; }},
       {"materials: emissiveFactor",
        [](GltfBuilder& f) {
          material(f)["emissiveFactor"] = {1, 1, 1};
        }},
-      {"materials: baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture",
+      {"materials: baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture",
        [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
-         material(f)["normalTexture"]["index"] = 0;
-       }},
-      {"materials: emissiveTexture",
-       [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
-         material(f)["emissiveTexture"]["index"] = 0;
+         set_texture(f, material(f)["emissiveTexture"]);
          material(f)["emissiveFactor"] = {1, 1, 1};
        }},
-      {"materials: alphaMode", [](GltfBuilder& f) { material(f)["alphaMode"] = "MASK"; }},
+      {"materials: occlusionTexture",
+       [](GltfBuilder& f) { set_texture(f, material(f)["occlusionTexture"]); }},
+      {"materials: alphaMode, alphaCutoff",
+       [](GltfBuilder& f) {
+         material(f)["alphaMode"] = "MASK";
+         material(f)["alphaCutoff"] = 0.25;
+       }},
       {"materials: doubleSided", [](GltfBuilder& f) { material(f)["doubleSided"] = true; }},
       {"cameras: perspective, orthographic",
        [](GltfBuilder& f) {
@@ -134,6 +157,23 @@ const std::map<std::string_view, Change>& examples() {
       {"KHR_lights_punctual",
        [](GltfBuilder& f) {
          set_extension(f, "KHR_lights_punctual", f.json, {{"lights", {{{"type", "point"}}}}});
+         set_extension(f, "KHR_lights_punctual", f.json["nodes"][1], {{"light", 0}});
+       }},
+      {"KHR_materials_clearcoat",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_clearcoat", material(f), {{"clearcoatFactor", 1}});
+       }},
+      {"KHR_materials_transmission",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_transmission", material(f), {{"transmissionFactor", 1}});
+       }},
+      {"KHR_materials_unlit",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_unlit", material(f), nlohmann::json::object());
+       }},
+      {"KHR_materials_volume",
+       [](GltfBuilder& f) {
+         set_extension(f, "KHR_materials_volume", material(f), {{"thicknessFactor", 1}});
        }},
       {"KHR_materials_emissive_strength",
        [](GltfBuilder& f) {
@@ -163,26 +203,22 @@ const std::map<std::string_view, Change>& examples() {
        }},
       {"EXT_texture_avif",
        [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
+         set_texture(f, material(f)["normalTexture"]);
          set_extension(f, "EXT_texture_avif", f.json["textures"][0], {{"source", 0}});
-         material(f)["normalTexture"]["index"] = 0;
        }},
       {"EXT_texture_webp",
        [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
+         set_texture(f, material(f)["normalTexture"]);
          set_extension(f, "EXT_texture_webp", f.json["textures"][0], {{"source", 0}});
-         material(f)["normalTexture"]["index"] = 0;
        }},
       {"KHR_texture_basisu",
        [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
+         set_texture(f, material(f)["normalTexture"]);
          set_extension(f, "KHR_texture_basisu", f.json["textures"][0], {{"source", 0}});
-         material(f)["normalTexture"]["index"] = 0;
        }},
       {"KHR_texture_transform",
        [](GltfBuilder& f) {
-         f.json["textures"] = {nlohmann::json::object()};
-         material(f)["normalTexture"]["index"] = 0;
+         set_texture(f, material(f)["normalTexture"]);
          set_extension(f, "KHR_texture_transform", material(f)["normalTexture"], {{"rotation", 1}});
        }},
       {"KHR_materials_variants",

@@ -18,13 +18,12 @@ using test::IncludeGraph;
 using test::includes_of;
 using test::reaches;
 
-const std::vector<std::string> kLayers{"engine/core",         "engine/scene",        "engine/gltf_document",
-                                       "engine/gltf",         "engine/accel",        "engine/cells",
-                                       "engine/gpu",          "engine/device_scene", "engine/tracer",
-                                       "experiments/files",   "experiments/images",  "experiments/measure",
-                                       "experiments/config",  "experiments/runtime", "experiments/reference",
-                                       "experiments/records", "experiments/run",     "experiments/study",
-                                       "experiments/commands"};
+const std::vector<std::string> kLayers{
+    "engine/core",         "engine/scene",       "engine/picture",      "engine/gltf_document",
+    "engine/gltf",         "engine/accel",       "engine/cells",        "engine/gpu",
+    "engine/device_scene", "engine/tracer",      "experiments/files",   "experiments/images",
+    "experiments/measure", "experiments/config", "experiments/runtime", "experiments/reference",
+    "experiments/records", "experiments/run",    "experiments/study",   "experiments/commands"};
 
 std::size_t layer_of(const std::string& path) {
   for (std::size_t i = 0; i < kLayers.size(); ++i) {

@@ -42,7 +42,7 @@ TEST(ManifestHash, SceneHashIsOfContentAlone) {
   same.warnings = {"w"};
   EXPECT_EQ(scene_hash(scene), scene_hash(same));
   std::set<std::string> hashes{scene_hash(scene)};
-  std::vector<Scene> others(7, scene);
+  std::vector<Scene> others(14, scene);
   others[0].triangles[0].position[2].z = 1e-6F;
   others[1].materials[0].emission.y = 1;
   others[2].materials[0].double_sided = true;
@@ -50,8 +50,15 @@ TEST(ManifestHash, SceneHashIsOfContentAlone) {
   others[4].objects[0].has_uv = true;
   others[5].triangles[0].uv[1].x = 0.5F;
   others[6].camera.film_height = 2;
+  others[7].materials[0].transmission = 1;
+  others[8].materials[0].texture(TextureSlot::normal) = Texture();
+  others[9].materials[0].texture(TextureSlot::emission) = Texture();
+  others[10].images = {{"", 1, 1, {{1, 2, 3, 4}}}};
+  others[11].images = {{"", 1, 1, {{1, 2, 3, 5}}}};
+  others[12].lights.emplace_back();
+  others[13].attributes.emplace_back();
   for (const Scene& other : others) hashes.insert(scene_hash(other));
-  EXPECT_EQ(hashes.size(), 8U);
+  EXPECT_EQ(hashes.size(), 15U);
 }
 
 TEST(ManifestHash, ConfigHashReplacesTheScenePathByItsContent) {

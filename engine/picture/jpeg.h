@@ -1,0 +1,13 @@
+// JPEG, by libjpeg.
+#pragma once
+
+#include "engine/picture/picture.h"
+
+namespace qtrace::picture {
+
+Size read_jpeg_size(Bytes bytes, const std::string& what);
+
+// Fills the texels of an image that has the size of the picture.
+void decode_jpeg(Bytes bytes, const std::string& what, TextureImage& image);
+
+}  // namespace qtrace::picture
