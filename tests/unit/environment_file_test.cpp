@@ -6,8 +6,12 @@
 #include "tests/system/temp_folder.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace qtrace::experiments {
 namespace {
@@ -68,6 +72,32 @@ TEST_F(EnvironmentFile, RadiancePicturesByTheirFirstBytes) {
 TEST_F(EnvironmentFile, ScaleMultipliesRadiance) {
   write({{"R", 1}, {"G", 2}, {"B", 3}});
   EXPECT_EQ(read_environment(file_, {2, 0.5, 0}).radiance[1], glm::vec3(22, 6, 0));
+}
+
+// As configs/scenes/sky.py makes it: 25 degrees high, 110 degrees from -z towards -x, and this bright.
+TEST_F(EnvironmentFile, TheShippedSkyHasItsSunWhereItIsSaid) {
+  const EnvironmentMap sky = read_environment(QTRACE_SOURCE_DIR "/configs/scenes/sunlit_sky.hdr");
+  ASSERT_EQ(sky.width, 2 * sky.height);
+  glm::dvec3 direction(0);
+  glm::dvec3 irradiance(0);
+  for (std::uint32_t y = 0; y < sky.height; ++y) {
+    for (std::uint32_t x = 0; x < sky.width; ++x) {
+      const glm::dvec3 radiance(sky.radiance[std::size_t{y} * sky.width + x]);
+      if (radiance.r < 20) continue;
+      const double polar = (y + 0.5) / sky.height * std::numbers::pi;
+      const double turn = ((x + 0.5) / sky.width - 0.5) * 2 * std::numbers::pi;
+      const double solid_angle = std::sin(polar) * 2 * std::pow(std::numbers::pi, 2) / sky.width / sky.height;
+      irradiance += radiance * solid_angle;
+      direction +=
+          radiance.r * solid_angle *
+          glm::dvec3(std::sin(polar) * std::sin(turn), std::cos(polar), -std::sin(polar) * std::cos(turn));
+    }
+  }
+  direction = glm::normalize(direction);
+  EXPECT_NEAR(glm::degrees(std::asin(direction.y)), 25, 0.05);
+  EXPECT_NEAR(glm::degrees(std::atan2(-direction.x, -direction.z)), 110, 0.05);
+  const glm::dvec3 sun(21, 18.5, 14.5);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(irradiance[c] / sun[c], 1, 0.01);
 }
 
 TEST_F(EnvironmentFile, WhatIsNoImageIsRefused) {
