@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace, door_ajar,
-glossy_room, open_sky .glb and hard/*.glb.
+glossy_room, open_sky, sunlit_bath, lamp_in_fixture .glb, sunlit_sky.hdr and hard/*.glb.
 
-Needs Python 3 and numpy only. The same bytes come out every time. Lengths are
+Needs Python 3 and numpy only. The same bytes come out every time
+(those of textures are zlib's, and so of its version). Lengths are
 metres, y is up, colours are linear.
 """
 
@@ -17,10 +18,13 @@ from door_ajar import CAMERA as DOOR_CAMERA, door_ajar
 from gltf_writer import Camera, Material, Object, write_glb
 from glossy_room import CAMERA as GLOSSY_CAMERA, glossy_room
 from hard import CAMERA as HARD_CAMERA, five_million, hard_scenes
+from lamp_in_fixture import CAMERA as LAMP_CAMERA, lamp_in_fixture
 from models import head, teapot
 from open_sky import CAMERA as SKY_CAMERA, open_sky
 from rooms import CAMERA as HOUSE_CAMERA, many_lights
 from shapes import Vec, box, rectangle
+from sky import write_sky
+from sunlit_bath import CAMERA as BATH_CAMERA, sunlit_bath
 from unwrap import Island, Mesh, pack
 
 GREEN = Material("green", (0.10, 0.80, 0.13))
@@ -165,8 +169,11 @@ def main() -> None:
             ("furnace", FURNACE_CAMERA, furnace()),
             ("door_ajar", DOOR_CAMERA, door_ajar()),
             ("glossy_room", GLOSSY_CAMERA, glossy_room()),
-            ("open_sky", SKY_CAMERA, open_sky())):
+            ("open_sky", SKY_CAMERA, open_sky()),
+            ("sunlit_bath", BATH_CAMERA, sunlit_bath()),
+            ("lamp_in_fixture", LAMP_CAMERA, lamp_in_fixture())):
         write(out / f"{name}.glb", camera, objects)
+    print(f"sunlit_sky.hdr: {write_sky(out / 'sunlit_sky.hdr')} bytes")
     for name, (camera, objects, above) in hard_scenes().items():
         write(out / "hard" / f"{name}.glb", camera, objects, above)
 

@@ -11,36 +11,13 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from gltf_material import Material
+from images import Image
 from unwrap import Mesh
 
 FLOAT, UINT16, UINT32 = 5126, 5123, 5125
+LINEAR, LINEAR_MIPMAP_LINEAR, REPEAT = 9729, 9987, 10497
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
-
-
-@dataclass(frozen=True)
-class Material:
-    """Reflectance (linear RGB) and one-sided emission (W / (sr m^2)); Lambert unless it has a specular lobe."""
-
-    name: str
-    reflectance: Sequence[float]
-    radiance: Sequence[float] = (0.0, 0.0, 0.0)
-    metallic: float = 0
-    roughness: float = 1
-    specular: float = 0
-
-    def to_json(self) -> dict[str, Any]:
-        extensions: dict[str, Any] = {"KHR_materials_specular": {"specularFactor": self.specular}}
-        result: dict[str, Any] = {
-            "name": self.name,
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [*self.reflectance, 1],
-                "metallicFactor": self.metallic, "roughnessFactor": self.roughness},
-        }
-        strength = max(self.radiance)
-        if strength > 0:
-            result["emissiveFactor"] = [round(c / strength, 9) for c in self.radiance]
-            extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
-        return {**result, "extensions": extensions}
 
 
 @dataclass(frozen=True)
@@ -79,7 +56,7 @@ class Camera:
 
 
 class _Buffer:
-    """Collects the binary chunk with one buffer view and accessor per array."""
+    """Collects the binary chunk with one buffer view and accessor per array, and one view per image."""
 
     def __init__(self) -> None:
         self.data = bytearray()
@@ -101,22 +78,48 @@ class _Buffer:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
+    def add_image(self, image: Image) -> dict[str, Any]:
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(image.png)})
+        self.data += image.png + bytes(-len(image.png) % 4)
+        return {"name": image.name, "mimeType": "image/png", "bufferView": len(self.views) - 1}
+
 
 def _floats(values: np.ndarray) -> np.ndarray:
     """Rounded to 1e-6 (and never -0.0), so that every CPU writes the same bytes."""
     return (np.round(values, 6) + 0.0).astype("<f4")
 
 
-def _primitive(buffer: _Buffer, mesh: Mesh, material: int) -> dict[str, Any]:
+def _textured(buffer: _Buffer, mesh: Mesh, material: Material) -> dict[str, int]:
+    """What textures need of the mesh. Images stand upright: their v falls where that of the map in metres grows."""
+    attributes = {}
+    if material.textures():
+        attributes["TEXCOORD_1"] = buffer.add(_floats(mesh.metres * (1, -1)), "VEC2", FLOAT)
+    if material.normal_map:
+        tangents = np.hstack([mesh.tangents(), np.ones((len(mesh.positions), 1))])
+        attributes["TANGENT"] = buffer.add(_floats(tangents), "VEC4", FLOAT)
+    return attributes
+
+
+def _primitive(buffer: _Buffer, mesh: Mesh, material: Material, index: int) -> dict[str, Any]:
     wide = len(mesh.positions) > 65535
     indices = mesh.triangles.ravel().astype("<u4" if wide else "<u2")
     return {
         "attributes": {
             "POSITION": buffer.add(_floats(mesh.positions), "VEC3", FLOAT, bounds=True),
             "NORMAL": buffer.add(_floats(mesh.normals), "VEC3", FLOAT),
-            "TEXCOORD_0": buffer.add(_floats(mesh.uvs), "VEC2", FLOAT)},
+            "TEXCOORD_0": buffer.add(_floats(mesh.uvs), "VEC2", FLOAT),
+            **_textured(buffer, mesh, material)},
         "indices": buffer.add(indices, "SCALAR", UINT32 if wide else UINT16),
-        "material": material}
+        "material": index}
+
+
+def _images(buffer: _Buffer, images: Sequence[Image]) -> dict[str, Any]:
+    """A texture for each image, in the same order."""
+    if not images:
+        return {}
+    return {"textures": [{"source": i, "sampler": 0} for i in range(len(images))],
+            "samplers": [{"magFilter": LINEAR, "minFilter": LINEAR_MIPMAP_LINEAR, "wrapS": REPEAT, "wrapT": REPEAT}],
+            "images": [buffer.add_image(image) for image in images]}
 
 
 def write_glb(path: Path, name: str, camera: Camera, objects: Sequence[Object],
@@ -125,24 +128,27 @@ def write_glb(path: Path, name: str, camera: Camera, objects: Sequence[Object],
     buffer = _Buffer()
     materials = list(dict.fromkeys(o.material for o in objects))
     meshes = [{"name": o.name, "primitives": [
-        _primitive(buffer, o.mesh, materials.index(o.material))]} for o in objects]
+        _primitive(buffer, o.mesh, o.material, materials.index(o.material))]} for o in objects]
     nodes = [{"name": o.name, **o.transform, "mesh": i} for i, o in enumerate(objects)]
     nodes.append(camera.node())
     roots = list(range(len(nodes)))
     if above:
         nodes.append({"name": "all", **above, "children": roots})
         roots = [len(nodes) - 1]
-    described = [material.to_json() for material in materials]
+    images = list(dict.fromkeys(t.image for m in materials for t in m.textures()))
+    described = [material.to_json(images.index) for material in materials]
+    extensions = {e for m in described for e in m["extensions"]} | ({"KHR_texture_transform"} if images else set())
     document = {
         "asset": {"version": "2.0", "generator": "qtrace scene generator",
                   "copyright": "CC0-1.0"},
-        "extensionsUsed": sorted({e for m in described for e in m["extensions"]}),
+        "extensionsUsed": sorted(extensions),
         "scene": 0,
         "scenes": [{"name": name, "nodes": roots}],
         "nodes": nodes,
         "cameras": [camera.to_json()],
         "materials": described,
         "meshes": meshes,
+        **_images(buffer, images),
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"byteLength": len(buffer.data)}],

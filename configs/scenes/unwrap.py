@@ -22,6 +22,17 @@ class Mesh:
     normals: np.ndarray  # (n, 3)
     uvs: np.ndarray  # (n, 2)
     triangles: np.ndarray  # (m, 3) counter-clockwise seen from outside
+    metres: np.ndarray | None = None  # (n, 2) the islands' own UV, in metres and not packed: for textures
+
+    def tangents(self) -> np.ndarray:
+        """Unit vectors of the vertices along the growing u of `metres`, in the plane of the normals, (n, 3)."""
+        (a, b, c), (p, q, r) = ([values[self.triangles[:, i]] for i in range(3)] for values in (self.positions, self.metres))
+        rise = (r - p)[:, 1:] * (b - a) - (q - p)[:, 1:] * (c - a)
+        along = np.zeros_like(self.positions)
+        for corner in range(3):
+            np.add.at(along, self.triangles[:, corner], rise)
+        along -= (along * self.normals).sum(axis=1, keepdims=True) * self.normals
+        return along / np.linalg.norm(along, axis=1, keepdims=True)
 
 
 @dataclass
@@ -114,4 +125,5 @@ def _join(islands: list[Island], layout: _Layout, flat: list[np.ndarray]) -> Mes
         np.concatenate([i.normals for i in islands]),
         np.concatenate(uvs),
         np.concatenate(triangles),
+        np.concatenate([i.uv for i in islands]),
     )

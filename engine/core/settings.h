@@ -68,8 +68,9 @@ inline bool has_table(const RenderSettings& settings) {
   return settings.sampler == Sampler::rl || learns_lights(settings);
 }
 
-template <class Visitor>
-void visit_knobs(Visitor& visit, RenderSettings& settings) {
+// `environment`: the knob of this name, for what has more to say of it than RenderSettings::environment.
+template <class Visitor, class Environment>
+void visit_knobs(Visitor& visit, RenderSettings& settings, Environment& environment) {
   visit(KnobInfo{"width", "pixels", "image width", 1, 16384}, settings.width);
   visit(KnobInfo{"height", "pixels", "image height", 1, 16384}, settings.height);
   visit(KnobInfo{"seed", "", "seed of the random numbers: the same seed gives the same bits", 0,
@@ -102,8 +103,10 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
       KnobInfo{"russian_roulette_start", "scattering events",
                "Russian roulette ends paths after more than this many; max_bounces or more: never", 0, 1024},
       settings.russian_roulette_start);
-  visit(KnobInfo{"environment", "radiance, RGB", "constant radiance of rays that leave the scene", 0, 1e8},
-        settings.environment);
+  visit(KnobInfo{"environment", "radiance, RGB",
+                 "radiance of rays that leave the scene: the same for all, or an image's by their direction",
+                 0, 1e8},
+        environment);
   visit(KnobInfo{"clamp_radiance", "radiance",
                  "a sample with a channel above this is scaled down to it, which biases the image; 0: never",
                  0, 1e30},
@@ -132,6 +135,11 @@ void visit_knobs(Visitor& visit, RenderSettings& settings) {
       settings.bvh);
   visit(KnobInfo{"rl", "", "the table's cells and learning; used by sampler rl and by lights learned"},
         settings.rl);
+}
+
+template <class Visitor>
+void visit_knobs(Visitor& visit, RenderSettings& settings) {
+  visit_knobs(visit, settings, settings.environment);
 }
 
 }  // namespace qtrace

@@ -55,11 +55,12 @@ RunConfig config_of(const Json& manifest, const fs::path& file) {
   return config;
 }
 
-LoadedScene load_scene(const fs::path& file, const View& view, const std::string& hash) {
+LoadedScene load_scene(const fs::path& file, const View& view,
+                       const std::optional<EnvironmentImage>& environment, const std::string& hash) {
   check(is_file(file), "{}: the scene of this run is not there; inspect it from the folder where it was run",
         file.string());
   SceneStore store;
-  LoadedScene scene = store.load(file, view);
+  LoadedScene scene = store.load(file, view, environment);
   check(scene.hash == hash,
         "{}: this scene has changed since the run (its hash was {} and is {}), so that the table's cells lie "
         "elsewhere; "
@@ -87,7 +88,10 @@ InspectedRun read_inspected_run(const fs::path& folder, std::optional<int> frame
         "inspected",
         folder.string(), enum_name(run.config.render.sampler));
   run.table = read_saved_table(folder, frame);
-  run.scene = load_scene(text_at(manifest, file, "scene", "file"), view_of(run.config),
+  std::optional<EnvironmentImage> environment = run.config.environment_image;
+  if (environment)
+    environment->file = text_at(manifest.value("scene", Json::object()), file, "environment", "file");
+  run.scene = load_scene(text_at(manifest, file, "scene", "file"), view_of(run.config), environment,
                          text_at(manifest, file, "scene", "hash"));
   return run;
 }

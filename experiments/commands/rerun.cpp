@@ -51,10 +51,17 @@ const Json& part(const Json& manifest, const char* name, const fs::path& file) {
   return manifest.at(name);
 }
 
-// Where a scene is now: beside the results as it was, or where the manifest says.
-fs::path scene_file(const Json& scene, const fs::path& manifest) {
-  const fs::path beside = (manifest.parent_path() / scene.value("from_here", "")).lexically_normal();
-  return is_file(beside) ? beside : fs::path(scene.value("file", ""));
+// Where a scene or an image is now: beside the results as it was, or where the manifest says.
+fs::path place_of(const Json& json, const fs::path& manifest) {
+  const fs::path beside = (manifest.parent_path() / json.value("from_here", "")).lexically_normal();
+  return is_file(beside) ? beside : fs::path(json.value("file", ""));
+}
+
+const LoadedScene& load_scene(const Json& scene, const fs::path& manifest, const RunConfig& config,
+                              SceneStore& scenes) {
+  std::optional<EnvironmentImage> environment = config.environment_image;
+  if (environment) environment->file = place_of(part(scene, "environment", manifest), manifest).string();
+  return scenes.load(place_of(scene, manifest), view_of(config), environment);
 }
 
 Run run_of(const Json& manifest, const fs::path& file) {
@@ -143,12 +150,13 @@ RerunResult rerun(const RerunOptions& options, Progress& progress) {
   for (const auto& [axis, label] : manifest.at("axes").items()) experiment.axes.push_back({axis, false, {}});
   const Run& run = experiment.runs.front();
   SceneStore scenes;
-  const View view = view_of(run.config);
-  const LoadedScene& scene = scenes.load(scene_file(part(manifest, "scene", file), file), view);
-  const LoadedScene& shown = scenes.load(scene_file(part(manifest, "reference_scene", file), file), view);
+  const LoadedScene& scene = load_scene(part(manifest, "scene", file), file, run.config, scenes);
+  const LoadedScene& shown = load_scene(part(manifest, "reference_scene", file), file, run.config, scenes);
   check(scene.hash == manifest.at("scene").value("hash", ""),
-        "{}: the content of {} is not what was rendered then: its hash was {} and is {}", file.string(),
-        scene.file.string(), manifest.at("scene").value("hash", ""), scene.hash);
+        "{}: the content of {}{} is not what was rendered then: its hash was {} and is {}", file.string(),
+        scene.file.string(),
+        scene.environment_file.empty() ? "" : " or of " + scene.environment_file.string(),
+        manifest.at("scene").value("hash", ""), scene.hash);
   gpu::Context context(options.device);
   keep_choices(context, part(manifest, "device", file));
   const Place place(options.out);

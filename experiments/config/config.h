@@ -4,12 +4,14 @@
 #include "engine/core/filter_settings.h"
 #include "engine/core/settings.h"
 #include "engine/scene/view.h"
+#include "experiments/config/environment_knob.h"
 #include "experiments/config/json_knobs.h"
 #include "experiments/config/view_knobs.h"
 #include "experiments/measure/expectation.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -106,6 +108,7 @@ struct RunConfig {
   NameOrIndex gltf_scene;
   CameraChoice camera;
   RenderSettings render;
+  std::optional<EnvironmentImage> environment_image;  // in place of render.environment, which is black then
   int frames = 64;
   int warmup_frames = 1;
   SnapshotPlan snapshots;
@@ -137,7 +140,8 @@ void visit_knobs(Visitor& visit, RunConfig& config) {
               "or fit: everything, from the front and a little above",
           .implied = "\"\""},
       config.camera);
-  visit_knobs(visit, config.render);
+  EnvironmentKnob environment{config.render.environment, config.environment_image};
+  visit_knobs(visit, config.render, environment);
   visit(KnobInfo{"frames", "frames", "length of the run; a frame is one sample per pixel", 1, 1e6},
         config.frames);
   visit(KnobInfo{"warmup_frames", "frames",

@@ -243,6 +243,12 @@ Json KnobType<PublishedTimes>::write(const PublishedTimes& times) {
   return json;
 }
 
+std::optional<EnvironmentImage> Experiment::environment_image(const Run& run) const {
+  std::optional<EnvironmentImage> image = run.config.environment_image;
+  if (image) image->file = (folder() / image->file).string();
+  return image;
+}
+
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return parse_experiment(read_file(file), file, sets);
 }

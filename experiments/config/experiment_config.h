@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,6 +92,8 @@ struct Experiment {
 
   std::filesystem::path folder() const { return file.parent_path(); }
   std::filesystem::path scene_file(const Run& run) const { return folder() / run.config.scene; }
+  // With its file's place; nothing where the run has no image.
+  std::optional<EnvironmentImage> environment_image(const Run& run) const;
   // Of what the run's reference shows.
   std::filesystem::path reference_file(const Run& run) const {
     return folder() / (run.config.reference.scene.empty() ? run.config.scene : run.config.reference.scene);

@@ -19,11 +19,17 @@ const std::vector<std::string>& override_keys() {
   return keys;
 }
 
+// Of a value that is an object, as a camera's place: it is read as a whole, which says what is wrong with it.
+bool is_within_a_value(const std::string& path) {
+  static const std::vector<KeyRow> knobs = list_knobs(RunConfig{});
+  return std::ranges::any_of(knobs, [&](const KeyRow& knob) { return path.starts_with(knob.key + '.'); });
+}
+
 // Overrides may set any knob of a run but the name, which belongs to the experiment as a whole.
 void check_override_key(const std::string& place, const std::string& key) {
   const std::vector<std::string>& keys = override_keys();
   check(key != "name", "{} sets 'name', which belongs to the whole experiment", place);
-  if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
+  if (std::find(keys.begin(), keys.end(), key) != keys.end() || is_within_a_value(key)) return;
   fail("{} sets the unknown key '{}'{}", place, key, suggestion(key, keys));
 }
 

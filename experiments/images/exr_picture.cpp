@@ -151,19 +151,31 @@ std::string describe(const ExrLayer& layer) {
   return names;
 }
 
-}  // namespace
-
-Picture read_picture(const fs::path& file, const std::string& wanted) {
+// What `use` makes of the file and its layer of this name. Throws Error that names the file.
+template <class Use>
+auto with_layer(const fs::path& file, const std::string& wanted, const Use& use) {
   const auto input = open(file);
   try {
     const LayerList list = list_layers(*input);
     const ExrLayer& layer = choose_layer(list, wanted);
-    check(input->partComplete(layer.part), "is truncated");
-    const Imf::Header& header = input->header(layer.part);
-    check_window(header.dataWindow());
+    check_window(input->header(layer.part).dataWindow());
+    return use(*input, layer);
+  } catch (const Error& error) {
+    fail("{}: {}", file.string(), error.what());
+  } catch (const std::exception& error) {
+    fail("{}: cannot be read as an OpenEXR image: {}", file.string(), error.what());
+  }
+}
+
+}  // namespace
+
+Picture read_picture(const fs::path& file, const std::string& wanted) {
+  return with_layer(file, wanted, [&](Imf::MultiPartInputFile& input, const ExrLayer& layer) {
+    check(input.partComplete(layer.part), "is truncated");
+    const Imf::Header& header = input.header(layer.part);
     Picture picture;
     picture.image = to_radiance(
-        layer.kind == LayerKind::luminance_chroma ? read_chroma(file, layer) : read_planes(*input, layer),
+        layer.kind == LayerKind::luminance_chroma ? read_chroma(file, layer) : read_planes(input, layer),
         file);
     if (layer.kind == LayerKind::xyz) {
       const glm::dmat3 to_rgb = glm::inverse(kRec709ToXyz);
@@ -179,11 +191,14 @@ Picture read_picture(const fs::path& file, const std::string& wanted) {
     picture.channels = describe(layer);
     if (converted) picture.channels += " (of the file's own primaries, as linear Rec. 709)";
     return picture;
-  } catch (const Error& error) {
-    fail("{}: {}", file.string(), error.what());
-  } catch (const std::exception& error) {
-    fail("{}: cannot be read as an OpenEXR image: {}", file.string(), error.what());
-  }
+  });
+}
+
+PictureFrame read_frame(const fs::path& file, const std::string& wanted) {
+  return with_layer(file, wanted, [](Imf::MultiPartInputFile& input, const ExrLayer& layer) {
+    const Imf::Header& header = input.header(layer.part);
+    return PictureFrame{box_of(header.dataWindow()), box_of(header.displayWindow())};
+  });
 }
 
 bool has_layer(const fs::path& file, const std::string& layer) {

@@ -32,6 +32,13 @@ struct Picture {
 // Throws Error that names the file and what is in it: unreadable, no such layer, several that fit.
 Picture read_picture(const std::filesystem::path& file, const std::string& layer = "");
 
+// Where the pixels of what read_picture() would read are, and the whole frame. Throws Error as it does.
+struct PictureFrame {
+  PixelBox data;
+  PixelBox display;
+};
+PictureFrame read_frame(const std::filesystem::path& file, const std::string& layer = "");
+
 // Whether the file has such a layer, or several. Throws Error where it is unreadable.
 bool has_layer(const std::filesystem::path& file, const std::string& layer);
 

@@ -7,6 +7,17 @@
 #include <ctime>
 
 namespace qtrace::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json place_json(const fs::path& file, const fs::path& folder) {
+  const fs::path here = fs::absolute(folder).lexically_normal();
+  return {{"file", file.string()},
+          {"from_here", fs::absolute(file).lexically_normal().lexically_relative(here).string()}};
+}
+
+}  // namespace
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
@@ -27,17 +38,14 @@ Json device_json(const gpu::DeviceInfo& device) {
 }
 
 Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  return {{"file", scene.file.string()},
-          {"from_here", fs::absolute(scene.file)
-                            .lexically_normal()
-                            .lexically_relative(fs::absolute(folder).lexically_normal())
-                            .string()},
-          {"hash", scene.hash},
-          {"triangles", scene.scene.triangles.size()},
-          {"objects", scene.scene.objects.size()},
-          {"materials", scene.scene.materials.size()},
-          {"warnings", scene.scene.warnings}};
+  Json json = place_json(scene.file, folder);
+  json.update({{"hash", scene.hash},
+               {"triangles", scene.scene.triangles.size()},
+               {"objects", scene.scene.objects.size()},
+               {"materials", scene.scene.materials.size()},
+               {"warnings", scene.scene.warnings}});
+  if (!scene.environment_file.empty()) json["environment"] = place_json(scene.environment_file, folder);
+  return json;
 }
 
 std::string timing_note() {

@@ -19,7 +19,7 @@ std::string utc_now();  // ISO 8601, seconds
 
 Json program_json();  // version and commit
 Json device_json(const gpu::DeviceInfo& device);
-// `folder`: of the manifest, from which the scene's file is found again when both are moved together.
+// `folder`: of the manifest, from which the scene's files are found again when all are moved together.
 Json scene_json(const LoadedScene& scene, const std::filesystem::path& folder);
 std::string timing_note();  // one sentence: what the times hold and what they leave out
 

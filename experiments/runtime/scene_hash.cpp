@@ -96,6 +96,16 @@ void add_later_parts(Hasher& hasher, const Scene& scene) {
   for (const PunctualLight& light : scene.lights) add_light(hasher, light);
 }
 
+// Scenes have had one later than hashes: none leaves no trace.
+void add_environment(Hasher& hasher, const EnvironmentMap& map) {
+  static_assert(sizeof(glm::vec3) == 3 * 4, "padding would make equal texels hash differently");
+  for (const char c : std::string_view("environment")) hasher.add(c);
+  hasher.add(map.width);
+  hasher.add(map.height);
+  hasher.add(map.rotation);
+  for (const glm::vec3& radiance : map.radiance) hasher.add(radiance);
+}
+
 }  // namespace
 
 std::string scene_hash(const Scene& scene) {
@@ -114,6 +124,7 @@ std::string scene_hash(const Scene& scene) {
   hasher.add(scene.camera.vertical_fov);
   hasher.add_later("film_height", scene.camera.film_height, 0.0F);
   add_later_parts(hasher, scene);
+  if (scene.environment) add_environment(hasher, *scene.environment);
   return hasher.digest();
 }
 

@@ -7,8 +7,8 @@
 
 namespace qtrace::experiments {
 
-// Of all that rendering reads: triangles, materials, objects, camera. Names and the file's encoding do not
-// count.
+// Of all that rendering reads: triangles, materials, objects, camera, the image around it. Names and the
+// files' encoding do not count.
 std::string scene_hash(const Scene& scene);
 
 }  // namespace qtrace::experiments

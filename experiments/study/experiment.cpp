@@ -282,10 +282,11 @@ void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& pro
   for (const std::string& warning : experiment.warnings) say(warning);
   for (const Run& run : experiment.runs) {
     try {
-      const LoadedScene& scene = scenes.load(experiment.scene_file(run), view_of(run.config));
+      const auto environment = experiment.environment_image(run);
+      const LoadedScene& scene = scenes.load(experiment.scene_file(run), view_of(run.config), environment);
       for (const std::string& warning : scene.scene.warnings) say(scene.file.string() + ": " + warning);
       say(light_warning(scene, run.config));
-      scenes.load(experiment.reference_file(run), view_of(run.config));
+      scenes.load(experiment.reference_file(run), view_of(run.config), environment);
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());
     }
@@ -295,9 +296,11 @@ void load_scenes(const Experiment& experiment, SceneStore& scenes, Progress& pro
 void check_device(const Experiment& experiment, const gpu::Context& context, SceneStore& scenes) {
   for (const Run& run : experiment.runs) {
     try {
-      const LoadedScene& scene = scenes.load(experiment.scene_file(run), view_of(run.config));
+      const auto environment = experiment.environment_image(run);
+      const LoadedScene& scene = scenes.load(experiment.scene_file(run), view_of(run.config), environment);
       check_limits(context, scene.scene, run.config.render);
-      const LoadedScene& shown = scenes.load(experiment.reference_file(run), view_of(run.config));
+      const LoadedScene& shown =
+          scenes.load(experiment.reference_file(run), view_of(run.config), environment);
       check_limits(context, shown.scene, reference_spec(run.config, shown.hash).settings);
     } catch (const Error& error) {
       fail("{}: run '{}': {}", experiment.file.string(), run.id, error.what());

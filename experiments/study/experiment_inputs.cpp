@@ -9,8 +9,9 @@ ExperimentInputs::ExperimentInputs(const Experiment& experiment, SceneStore& sce
   runs_.reserve(experiment.runs.size());
   for (const Run& run : experiment.runs) {
     const View view = view_of(run.config);
-    const LoadedScene& scene = scenes.load(experiment.scene_file(run), view);
-    const LoadedScene& shown = scenes.load(experiment.reference_file(run), view);
+    const auto environment = experiment.environment_image(run);
+    const LoadedScene& scene = scenes.load(experiment.scene_file(run), view, environment);
+    const LoadedScene& shown = scenes.load(experiment.reference_file(run), view, environment);
     ReferenceSpec reference = reference_spec(run.config, shown.hash);
     runs_.push_back(run_inputs(run, scene, shown, reference, device));
     specs_.emplace(reference.hash, std::move(reference));

@@ -120,9 +120,11 @@ Json identity_json(const Experiment& experiment, SceneStore& scenes, const gpu::
   Json hashes = Json::object();
   for (const Run& run : experiment.runs) {
     const View view = view_of(run.config);
+    const auto environment = experiment.environment_image(run);
+    const std::string added = view_text(view) + environment_text(run.config.environment_image);
     for (const fs::path& file : {experiment.scene_file(run), experiment.reference_file(run)}) {
       const fs::path name = file.lexically_normal().lexically_relative(experiment.folder());
-      hashes[name.string() + view_text(view)] = scenes.load(file, view).hash;
+      hashes[name.string() + added] = scenes.load(file, view, environment).hash;
     }
   }
   return {{"config", experiment.config},

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Feeds the config reader, the glTF loader and the decoders of images with bytes that libFuzzer makes up.
+"""Feeds the config reader, the glTF loader, the decoders of images and the reader of Radiance's pictures with bytes that libFuzzer makes up.
 
-    ./dev fuzz [SECONDS] [--only config|gltf|image] [--corpus FOLDER] [--seed N]
+    ./dev fuzz [SECONDS] [--only config|gltf|image|hdr] [--corpus FOLDER] [--seed N]
 
-SECONDS for each of the three (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
+SECONDS for each of them (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
 where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all, or answers with anything but a result or a
 clear error; the input that made it do so is kept in build/fuzz/findings. --corpus keeps what was learned for another time.
 """
@@ -64,6 +64,13 @@ def gltf_seeds() -> dict[str, bytes]:
     return seeds
 
 
+def hdr_seeds() -> dict[str, bytes]:
+    """A row of each kind of encoding."""
+    header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nCOLORCORR=1 2 3\n\n-Y 2 +X 9\n"
+    plain, runs = bytes((5, 6, 7, 136)) * 9, bytes((2, 2, 0, 9, 137, 5, 5, 1, 2, 3, 4, 5, 132, 6, 137, 7, 137, 136))
+    return {"plain": header + plain * 2, "runs": header + runs * 2, "older": header + (plain[:4] + bytes((1, 1, 1, 8))) * 2}
+
+
 def config_words() -> set[str]:
     """Keys, their last parts, and the words that values may be."""
     words = set()
@@ -89,8 +96,12 @@ def image_words() -> set[str]:
     return {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "JFIF", "Adobe"}
 
 
-SEEDS = {"config": config_seeds, "gltf": gltf_seeds, "image": dict}
-WORDS = {"config": config_words, "gltf": gltf_words, "image": image_words}
+def hdr_words() -> set[str]:
+    return {"#?RADIANCE", "FORMAT=32-bit_rle_rgbe", "EXPOSURE=", "COLORCORR=", "-Y ", "+X "}
+
+
+SEEDS = {"config": config_seeds, "gltf": gltf_seeds, "image": dict, "hdr": hdr_seeds}
+WORDS = {"config": config_words, "gltf": gltf_words, "image": image_words, "hdr": hdr_words}
 
 
 def prepare(target: str, corpus: Path, dictionary: Path) -> None:

@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 QTRACE = os.environ.get("QTRACE_BINARY", str(ROOT / "build/release/qtrace"))
 SCENE = str(ROOT / "configs/scenes/simple.glb")
 GOOD = {"name": "a", "scene": SCENE, "frames": 8}
+SKY = str(ROOT / "configs/scenes/sunlit_sky.hdr")
 
 
 def qtrace(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
@@ -96,6 +97,9 @@ class SchemaTest(unittest.TestCase):
                    "groups": GOOD | {"sweep": [{"how": {"A": {"rl.update": "sarsa", "nee": "one_ray"}, "B": {}}}]},
                    "label": GOOD | {"sweep": [{"sampler": {"A": {"sampler": "rl", "rl": {"bins_phi": 2}}}}]},
                    "group_axis": GOOD | {"sweep": [{"rl": [{"bins_phi": 2}]}]},
+                   "constant": GOOD | {"environment": [1, 0.5, 0]}, "sky": GOOD | {"environment": {"file": SKY}},
+                   "turned_sky": GOOD | {"environment": {"file": SKY, "scale": 2, "rotation": -90}},
+                   "skies": GOOD | {"sweep": [{"environment": [[0, 0, 0], {"file": SKY, "scale": [1, 2, 0.5]}]}]},
                    "swept_scene": {"name": "a", "frames": 8, "sweep": [{"scene": [SCENE]}]}}
         for name, config in configs.items():
             self.assertEqual([error.message for error in VALIDATOR.iter_errors(config)], [], name)
@@ -109,6 +113,13 @@ class SchemaTest(unittest.TestCase):
                    "truth": GOOD | {"rl": {"bsdf_fraction": True}}, "number_for_group": GOOD | {"rl": 3},
                    "two_channels": GOOD | {"environment": [1, 2]},
                    "negative_channel": GOOD | {"environment": [0, 0, -1]},
+                   "environment_word": GOOD | {"environment": SKY}, "no_image": GOOD | {"environment": {"scale": 1}},
+                   "image_member": GOOD | {"environment": {"file": SKY, "turn": 3}},
+                   "image_name": GOOD | {"environment": {"file": ""}},
+                   "image_scale": GOOD | {"environment": {"file": SKY, "scale": -1}},
+                   "image_scales": GOOD | {"environment": {"file": SKY, "scale": [1, 1]}},
+                   "image_turn": GOOD | {"environment": {"file": SKY, "rotation": 361}},
+                   "swept_image": GOOD | {"sweep": [{"environment": [{}]}]},
                    "snapshot_zero": GOOD | {"snapshots": [0]}, "snapshot_word": GOOD | {"snapshots": "all"},
                    "dotted_range": GOOD | {"rl.bins_phi": 0}, "schema": GOOD | {"$schema": 3},
                    "sweep_object": GOOD | {"sweep": {}},
@@ -154,6 +165,8 @@ class SchemaTest(unittest.TestCase):
                    "baseline": (GOOD | {"baseline": "none"}, "must be a label or a configuration"),
                    "no_scene": ({"name": "a"}, "key 'scene' is missing"),
                    "gone": (GOOD | {"scene": "gone.glb"}, "gone.glb: no such scene"),
+                   "no_image": (GOOD | {"environment": {"file": "gone.exr"}}, "gone.exr: no such image; the file of key"),
+                   "other_image": (GOOD | {"environment": {"file": SCENE}}, "simple.glb: is neither an OpenEXR image"),
                    "broken": (GOOD | {"scene": str(broken)}, broken.name), "good": (GOOD, "")}
         said = self.check({name: config for name, (config, _) in configs.items()})
         for name, (config, words) in configs.items():
@@ -164,6 +177,7 @@ class SchemaTest(unittest.TestCase):
     def test_every_error_of_a_file_is_named(self) -> None:
         config = GOOD | {"widht": 3, "frames": 0, "rl": {"bins_fi": 3, "update": "best", "bins_phi": 4}, "nee": "none",
                          "rl.bins_theta": 65, "camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 400},
+                         "environment": {"file": "a.exr", "scale": -2},
                          "sweep": [{"sed": [1]}, {"seed": [1]}, {"nee": []},
                                    {"how": {"A": {"rl": {"bins_phi": 0}}}}]}
         (self.folder / "c.json").write_text(json.dumps(config))
@@ -171,7 +185,7 @@ class SchemaTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         words = ["key 'frames' is 0", "unknown key 'widht'; did you mean 'width'?", "unknown key 'rl.bins_fi'",
                  "key 'rl.update' is \"best\"", "key 'rl.bins_theta' is 65",
-                 "key 'camera.fov' is 400", "unknown key 'sed'",
+                 "key 'camera.fov' is 400", "key 'environment.scale' is -2", "unknown key 'sed'",
                  "sweep axis 'nee' has no values", "'A' of sweep axis 'how': key 'rl.bins_phi' is 0"]
         lines = result.stderr.splitlines()
         self.assertEqual(len(lines), len(words), result.stderr)

@@ -63,6 +63,9 @@ TEST(ViewKnobs, ASweepGoesOverCameras) {
   EXPECT_EQ(experiment.runs[0].config.camera.kind, CameraChoice::Kind::fit);
   EXPECT_EQ(experiment.runs[1].config.camera.of_file.name, "eye");
   EXPECT_EQ(experiment.runs[2].id, "camera=2");
+  const Experiment groups = load(config_text(
+      R"("sweep": [{"from": {"above": {"camera": {"position": [0, 9, 0], "target": [0, 0, 0]}}}}], )"));
+  EXPECT_EQ(groups.runs.at(0).config.camera.place.position[1], 9);
 }
 
 // The scene's own hash holds the camera, whatever it is called.
