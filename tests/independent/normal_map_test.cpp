@@ -50,7 +50,10 @@ TEST(Independent, ScattersOnlyWhereNormalAndFaceAgree) {
   coated = lambert(glm::vec3(0));
   coated.clearcoat = coated.clearcoat_roughness = 1;
   coated.texture(TextureSlot::clearcoat_normal) = base.materials[0].texture(TextureSlot::normal);
-  for (Scene& scene : {std::ref(base), std::ref(coat)}) {
+  Scene thin = base;
+  thin.materials[0] = glass(0.8F, true);
+  thin.materials[0].texture(TextureSlot::normal) = base.materials[0].texture(TextureSlot::normal);
+  for (Scene& scene : {std::ref(base), std::ref(coat), std::ref(thin)}) {
     const auto seen_under = [&](glm::vec3 to_sun) {
       scene.lights[0] = sun(-to_sun, glm::vec3(2));
       return seen_from(scene, {0, 0, 3}, {0, 0.1F, 0}, one_pixel(1)).mean.x;
@@ -58,6 +61,7 @@ TEST(Independent, ScattersOnlyWhereNormalAndFaceAgree) {
     EXPECT_EQ(seen_under({-1, 0, 0.5F}), 0);  // behind the bump, and before the wall
     EXPECT_EQ(seen_under({1, 0, -0.2F}), 0);  // before the bump, and behind the wall
     EXPECT_GT(seen_under({1, 0, 0.2F}), 1e-3);
+    EXPECT_EQ(seen_under({-1, 0, -0.5F}) > 0, &scene == &thin);
   }
 }
 
