@@ -44,7 +44,7 @@ void read_cone(Source& source, const tinygltf::SpotLight& file, const std::strin
   // What exporters write of a spot with a sharp edge.
   light.inner_cone_angle = static_cast<float>(kSharp * outer);
   source.warn(
-      "{}: innerConeAngle is outerConeAngle, where KHR_lights_punctual has it less; it is read as {:.3g}",
+      "{}: innerConeAngle is outerConeAngle, where KHR_lights_punctual has it less; it is read as {:.4g}",
       place, light.inner_cone_angle);
 }
 

@@ -59,9 +59,8 @@ inline constexpr Support kSupport[] = {
     {"textures: source, sampler", Treatment::read, "wrapS, wrapT, magFilter"},
     {"samplers: minFilter", Treatment::unseen, "there are as many samples of a texture as of a pixel"},
     {"images", Treatment::read,
-     "PNG and JPEG in files of the scene's folder, data URIs and bufferViews; up to 32768 texels a side and "
-     "2^27 "
-     "in all; what they say of colour spaces does not count; broken ones are refused where a material reads "
+     "PNG and JPEG in files of the scene's folder, data URIs and bufferViews, of up to 32768 texels a side "
+     "and 2^27 in all, whatever they say of colour spaces; broken ones are refused where a material reads "
      "them"},
     {"materials: alphaMode, alphaCutoff", Treatment::read, "OPAQUE, MASK and BLEND"},
     {"materials: doubleSided", Treatment::read,

@@ -1,25 +1,16 @@
 // Pictures in files: PNG and JPEG, decoded as they are.
 #pragma once
 
+#include "engine/picture/encoded.h"
 #include "engine/scene/texture.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace qtrace::picture {
 
-using Bytes = std::span<const unsigned char>;
-
 inline constexpr std::uint32_t kMostOfASide = 32768;
-
-struct Size {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-};
 
 // What the bytes are, by their first ones and not by a name: "image/png", "image/jpeg", or another that this
 // cannot decode; empty where nothing is known that begins so.

@@ -1,7 +1,10 @@
 // PNG, by libpng.
 #pragma once
 
-#include "engine/picture/picture.h"
+#include "engine/picture/encoded.h"
+#include "engine/scene/texture.h"
+
+#include <string>
 
 namespace qtrace::picture {
 

@@ -1,8 +1,10 @@
 #include "tests/independent/comparison.h"
 
 #include "engine/gltf/load_gltf.h"
+#include "tests/independent/feature_rooms.h"
 #include "tests/render/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qtrace::independent {
@@ -21,6 +23,7 @@ double variance_of(const glm::dvec3& v) {
 }
 
 Scene load(const std::string& name) {
+  if (std::ranges::count(kRooms, name) > 0) return feature_room(name);
   return name == "glossy" ? test::glossy_room() : test::shipped(name.c_str());
 }
 

@@ -90,7 +90,7 @@ TEST_F(GltfDuplicates, TexturedEmittersMustHaveTheSameCoordinates) {
   gltf.add_triangle();
   add_second(rotated, glow, glow);
   const std::size_t texture = gltf.add_texture(png_of(1, 2, 3));
-  for (int i = 0; i < 2; ++i) gltf.json["materials"][i]["emissiveTexture"]["index"] = texture;
+  for (nlohmann::json& material : gltf.json["materials"]) material["emissiveTexture"]["index"] = texture;
   nlohmann::json& first = gltf.json["meshes"][0]["primitives"][0]["attributes"];
   nlohmann::json& second = gltf.json["meshes"][1]["primitives"][0]["attributes"];
   first["TEXCOORD_0"] = gltf.add_floats("VEC2", {0, 0, 1, 0, 0, 1});

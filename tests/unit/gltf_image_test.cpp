@@ -180,7 +180,7 @@ TEST_F(GltfImageTest, OtherKindsNeedAnotherInTheirPlace) {
   }
 }
 
-TEST_F(GltfImageTest, CompressedBytesAreNotInTheWay) {
+TEST_F(GltfImageTest, BuffersThatServeNoImageAreNotOpenedForIt) {
   folder.write("bark.png", kRed);
   set_uri("bark.png");
   gltf.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 4}});

@@ -149,7 +149,7 @@ TEST_F(GltfLightTest, WarnsOfWhatIsMeantAllTheSame) {
   add_node({});
   expect_warning(
       "light 'lamp': innerConeAngle is outerConeAngle, where KHR_lights_punctual has it less; it is read as "
-      "0.499");
+      "0.4995");
   EXPECT_LT(load().lights.at(0).inner_cone_angle, 0.5F);
   light() = {{"name", "lamp"}, {"type", "point"}, {"color", {2, 0, 1}}, {"intensity", 3}};
   expect_warning(

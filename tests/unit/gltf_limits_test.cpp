@@ -96,7 +96,7 @@ TEST_F(GltfLimitsTest, ManyWarningsAreCounted) {
 TEST_F(GltfLimitsTest, TheFuzzerStartsFromScenesThatAreRead) {
   const std::filesystem::path seeds = QTRACE_SOURCE_DIR "/tests/fuzz/corpus/gltf";
   const Scene scene = load_gltf(seeds / "every_property.gltf");
-  EXPECT_EQ(scene.triangles.size(), 16U);
+  EXPECT_EQ(scene.triangles.size(), 12U) << "lamps are cut out of what lies in their plane";
   EXPECT_EQ(scene.objects.size(), 3U);
   std::size_t read = 0;
   for (const auto& seed : std::filesystem::directory_iterator(seeds)) {

@@ -17,8 +17,8 @@ struct PngFile {
   PngColor color = PngColor::rgb;
   int depth = 8;
   bool is_interlaced = false;
-  std::string palette;                                        // three bytes a colour
-  std::string palette_alpha;                                  // tRNS
+  std::string palette{};                                      // three bytes a colour
+  std::string palette_alpha{};                                // tRNS
   std::optional<std::array<std::uint16_t, 3>> transparent{};  // tRNS of grey and RGB
   double gamma = 0;                                           // gAMA; 0: none
 };
