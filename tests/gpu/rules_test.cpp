@@ -55,6 +55,39 @@ INSTANTIATE_TEST_SUITE_P(All, Rules,
                                          UpdateRule::paper_listing),
                          [](const auto& rule) { return std::string(enum_name(rule.param)); });
 
+// What stands in the furnace and loses no light leaves it as bright. What passes glass, or is mirrored, no
+// table holds: what arrives from there must reach the cells before it all the same.
+TEST(RulesBehindGlass, FindTheFurnacesRadiance) {
+  Material mirror, pane;
+  mirror.base_color = pane.base_color = glm::vec3(1);
+  mirror.roughness = pane.roughness = 0;
+  pane.metallic = 0;
+  pane.transmission = 1;
+  Material rough = pane;
+  rough.roughness = 0.1F;  // loses little
+  for (const Material& material : {mirror, pane, rough}) {
+    for (const UpdateRule rule : {UpdateRule::expected_sarsa, UpdateRule::sarsa, UpdateRule::monte_carlo}) {
+      SCOPED_TRACE(std::string(enum_name(rule)) + ", metallic " + std::to_string(material.metallic) +
+                   ", roughness " + std::to_string(material.roughness));
+      Scene scene = furnace_box(0.5F, 1.0F);
+      scene.materials.push_back(material);
+      add_quad(scene, {-0.9F, -0.9F, -0.5F}, {1.8F, 0, 0}, {0, 1.8F, 0}, 1);
+      Tracer tracer(device(), scene, closed_settings(rule));
+      render(tracer, 400);
+      const std::vector<float> values = tracer.table()->values();
+      const std::vector<std::uint32_t> visits = tracer.table()->visits();
+      double sum = 0, entries = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (visits[i] < 100) continue;
+        sum += (values[i] / 2 - 1) * (values[i] / 2 - 1);
+        ++entries;
+      }
+      EXPECT_GT(entries, 0.3 * static_cast<double>(values.size()));
+      EXPECT_LT(std::sqrt(sum / entries), 0.1);
+    }
+  }
+}
+
 // In the furnace the incident radiance is Le / (1 - albedo) from everywhere; so is the fixed point of
 // q_learning, whose best bin is as good as any. The listing sees an emitter in every wall and clamps its |Le|
 // to 1.

@@ -213,6 +213,24 @@ Scene lit_without_surface() {
   return scene;
 }
 
+// A lamp and a ball within a block of glass that absorbs, seen from without.
+Scene in_glass() {
+  Scene scene = furnace_box(0, 0, 0.9F);
+  // The box turned inside out.
+  for (Triangle& t : scene.triangles) {
+    std::swap(t.position[1], t.position[2]);
+    for (glm::vec3& n : t.normal) n = -n;
+  }
+  Material block = volume(0);
+  block.ior = 1.2F;
+  const Material matt = lambert({0.8F, 0.6F, 0.7F});
+  scene.materials = {block, lambert(glm::vec3(0), {6, 5, 4}), matt};
+  add_quad(scene, {-0.3F, 0.7F, -0.3F}, {0.6F, 0, 0}, {0, 0, 0.6F}, lamp);
+  add_ball(scene, {0, -0.2F, 0}, 0.5F, ball);
+  scene.camera = look_at({-1, 1.5F, 2.5F}, {0, 0, 0}, 0.7F);
+  return scene;
+}
+
 Scene unlit() {
   Material m;
   m.base_color = {0.8F, 0.5F, 0.2F};
@@ -251,6 +269,7 @@ Scene feature_room(const std::string& name) {
       {"rough_glass", [] { return with_ball(volume(0.5F)); }},
       {"coat", [] { return coated(0.6F, 0); }},
       {"rough_coat", [] { return coated(1, 0.5F); }},
+      {"in_glass", in_glass},
       {"unlit", unlit},
       {"sky", [] { return roofless(false); }},
       {"sky_and_lamp", [] { return roofless(true); }},

@@ -43,7 +43,7 @@ PROTECTIONS = [
     Protection("ray offsets by the scene's size, not a constant", ("room, scaled 0.001",),
                (Edit(SURFACE, OFFSET, "s.offset = 1e-3;"),)),
     Protection("no length is too far", ("room, scaled 10,000",), (Edit(
-        "shaders/geometry/traverse.glsl", "Hit hit = Hit(INFINITY, NO_TRIANGLE, vec2(0.0));", "Hit hit = Hit(1e4, NO_TRIANGLE, vec2(0.0));"),)),
+        "shaders/geometry/traverse.glsl", "nearest_hit(origin, direction, INFINITY)", "nearest_hit(origin, direction, 1e4)"),)),
     Protection("a light's triangles are chosen by their area", ("slivers",), (Edit(
         "shaders/light/lights.glsl", "return fraction <= link.z ? triangle : link.x;", "return triangle;"),)),
     Protection("doubled triangles are dropped", ("doubled triangles",), (Edit(
@@ -72,11 +72,12 @@ PROTECTIONS = [
         "return 1.0;"),)),
     Protection("specular directions have the density that they are drawn with",
                ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
-        "shaders/material/bsdf.glsl", "ggx_distribution(s.normal, h, b.alpha) * 0.25;", "ggx_distribution(s.normal, h, b.alpha) * 0.2;"),)),
+        "shaders/material/microfacet.glsl", "ggx_distribution(n, h, alpha) * 0.25;", "ggx_distribution(n, h, alpha) * 0.2;"),)),
     Protection("what does not emit is black", ("no light",), (Edit(
-        SURFACE, "return s.back && emission.w == 0.0 ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
+        "shaders/material/emission.glsl", "return s.back && emission.w == EMITS_FRONT ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
     Protection("the environment is met after every event", ("environment alone",), (Edit(
-        "shaders/path/trace.glsl", "NEE == NEE_TWO_RAY && bounce > 0u ? 0.0 : 1.0;", "bounce > 0u ? 0.0 : 1.0;"),)),
+        "shaders/path/trace.glsl", "weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell);",
+        "weight = bounce > 0u ? 0.0 : 1.0;"),)),
     Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
         "engine/device_scene/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",
         "uvec4(0), uvec4(0, 0, link(0), link(0))"),)),

@@ -57,7 +57,7 @@ class Coplanar : public testing::TestWithParam<bool> {
  protected:
   static Scene mended(bool lamp_first) {
     Scene box = box_with_lamp_in_ceiling(lamp_first);
-    gltf::Source source{"box", {}, {}, 0};
+    gltf::Source source{"box", {}, {}, 0, {}};
     gltf::cut_overlaps(source, box, 0, 1000);
     EXPECT_EQ(source.warnings.size(), 1U);
     return box;
