@@ -58,8 +58,11 @@ const LoadedScene& SceneStore::load(const std::filesystem::path& file, const Vie
 bool has_light(const Scene& scene) {
   const auto is_lit = [](const glm::vec3& radiance) { return radiance != glm::vec3(0.0F); };
   if (scene.environment && std::ranges::any_of(scene.environment->radiance, is_lit)) return true;
-  return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const Triangle& triangle) {
-    return scene.materials[triangle.material].emission != glm::vec3(0.0F);
+  if (std::ranges::any_of(scene.lights, [&](const PunctualLight& light) { return is_lit(light.intensity); }))
+    return true;
+  return std::ranges::any_of(scene.triangles, [&](const Triangle& triangle) {
+    const Material& material = scene.materials[triangle.material];
+    return is_lit(material.is_unlit ? material.base_color : material.emission);
   });
 }
 

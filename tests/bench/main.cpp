@@ -5,6 +5,7 @@
 #include "experiments/runtime/manifest.h"
 #include "tests/bench/design_bench.h"
 #include "tests/bench/embree.h"
+#include "tests/bench/feature_bench.h"
 #include "tests/bench/frame_bench.h"
 #include "tests/bench/growth_bench.h"
 #include "tests/bench/limit_bench.h"
@@ -120,6 +121,7 @@ int run(int argc, char** argv) {
   }
   if (wants("designs")) {
     bench_designs(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+    bench_features(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),

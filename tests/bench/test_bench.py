@@ -103,6 +103,12 @@ class BenchTest(unittest.TestCase):
             # Medians of ratios, by so few rounds, add up nearly.
             self.assertAlmostEqual(queries + states, both, delta=0.3 * both)
 
+    def test_features_beside_the_plain_frame(self) -> None:
+        rows = rows_of(self.out / "features.csv")
+        self.assertEqual(float(rows[0]["cpu_over_plain"]), 1)
+        self.assertEqual(len(rows), 11)
+        self.assertGreater(min(float(row["over_plain_low"]) for row in rows), 0.3)
+
     def test_growth_along_every_axis(self) -> None:
         rows = rows_of(self.out / "growth.csv")
         values = {}

@@ -1,6 +1,7 @@
 #include "tests/independent/comparison.h"
 
 #include "engine/gltf/load_gltf.h"
+#include "experiments/images/environment_file.h"
 #include "tests/independent/feature_rooms.h"
 #include "tests/render/comparison.h"
 
@@ -22,9 +23,16 @@ double variance_of(const glm::dvec3& v) {
   return deviation * deviation;
 }
 
+EnvironmentMap shipped_sky() {
+  return experiments::read_environment(std::string(QTRACE_SOURCE_DIR) + "/configs/scenes/sunlit_sky.hdr");
+}
+
 Scene load(const std::string& name) {
   if (std::ranges::count(kRooms, name) > 0) return feature_room(name);
-  return name == "glossy" ? test::glossy_room() : test::shipped(name.c_str());
+  if (name == "glossy") return test::glossy_room();
+  Scene scene = test::shipped(name.c_str());
+  if (name == "sunlit_bath.glb") scene.environment = shipped_sky();
+  return scene;
 }
 
 // The mean of two images with as many samples each.

@@ -13,10 +13,11 @@
 
 namespace qtrace::independent {
 
-// All shipped ones (open_sky with its sky), and the Cornell box in metal and plastic.
-inline constexpr std::array kScenes{"simple.glb",      "occluded.glb", "cornell_box.glb",
-                                    "many_lights.glb", "furnace.glb",  "door_ajar.glb",
-                                    "glossy_room.glb", "open_sky.glb", "glossy"};
+// All shipped ones (open_sky and sunlit_bath with their skies), and the Cornell box in metal and plastic.
+inline constexpr std::array kScenes{"simple.glb",          "occluded.glb", "cornell_box.glb",
+                                    "many_lights.glb",     "furnace.glb",  "door_ajar.glb",
+                                    "glossy_room.glb",     "open_sky.glb", "sunlit_bath.glb",
+                                    "lamp_in_fixture.glb", "glossy"};
 
 // Chance that a true renderer fails one comparison.
 inline constexpr double kQuickChance = 1e-4;
