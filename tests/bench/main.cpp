@@ -12,6 +12,7 @@
 #include "tests/bench/ray_bench.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/step_bench.h"
+#include "tests/bench/texel_bench.h"
 
 #include <CLI/CLI.hpp>
 
@@ -122,6 +123,7 @@ int run(int argc, char** argv) {
   if (wants("designs")) {
     bench_designs(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
     bench_features(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
+    bench_texels(context, {chosen(rounds, effort.frame_rounds), chosen(size, effort.frame_size), out});
   }
   if (wants("growth")) {
     bench_growth(context, {chosen(rounds, effort.growth_rounds), chosen(size, effort.growth_size),

@@ -109,6 +109,12 @@ class BenchTest(unittest.TestCase):
         self.assertEqual(len(rows), 11)
         self.assertGreater(min(float(row["over_plain_low"]) for row in rows), 0.3)
 
+    def test_texels_in_every_way(self) -> None:
+        rows = rows_of(self.out / "texels.csv")
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(float(rows[0]["over_first"]), 1)
+        self.assertGreater(min(float(row["cpu_ns_low"]) for row in rows), 0)
+
     def test_growth_along_every_axis(self) -> None:
         rows = rows_of(self.out / "growth.csv")
         values = {}
