@@ -73,8 +73,8 @@ double Comparison::truth_error() const {
 }
 
 Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision,
-                              const std::function<void(const Agreement&)>& watch,
-                              RandomNumbers random) const {
+                              const std::function<void(const Agreement&)>& watch, RandomNumbers random,
+                              LightChoice lights) const {
   RenderSettings settings;
   settings.width = settings.height = size_.size;
   settings.max_bounces = kBounces;
@@ -82,6 +82,7 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
   settings.nee = nee;
   settings.seed = 77;
   settings.random = random;
+  settings.lights = lights;
   settings.replicates = random == RandomNumbers::sobol ? 16 : 1;
   settings.rl.sites_per_object = 40;
   settings.environment = {sky_, sky_, sky_};

@@ -40,7 +40,8 @@ class Comparison {
   // With Sobol' points it has 16 replicates, whose spread is its variance.
   Agreement measure(Sampler sampler, Nee nee, int frames, int most_frames = 0, double precision = 0,
                     const std::function<void(const Agreement&)>& watch = {},
-                    RandomNumbers random = RandomNumbers::independent) const;
+                    RandomNumbers random = RandomNumbers::independent,
+                    LightChoice lights = LightChoice::power) const;
 
  private:
   Agreement compare(const RadianceImage& image) const;

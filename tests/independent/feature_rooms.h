@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace qtrace::independent {
 
@@ -16,5 +17,8 @@ inline constexpr std::array kRooms{"textures", "normals", "alpha",       "plasti
 // A box with a lamp below its ceiling (a roofless one under a sky, or one without a lamp where the name says
 // so) and a ball.
 Scene feature_room(const std::string& name);
+
+// Whether paths alone meet its light: what has no surface, none does.
+inline bool shines_on_paths(std::string_view name) { return name != "punctual"; }
 
 }  // namespace qtrace::independent

@@ -121,7 +121,7 @@ TEST(Sky, LightsAFloorByItsIrradiance) {
         RenderSettings settings = settings_of(1, nee);
         settings.sampler = sampler;
         settings.lights = lights;
-        const Rendering r = render(scene, settings, nee == Nee::none ? 1024 : 64);
+        const Rendering r = render(scene, settings, nee == Nee::none ? 512 : 32);
         means.push_back(block_estimate(r.image, 0, 0, kSize));
         EXPECT_NEAR(means.back().mean, 0.8 * irradiance / kPi,
                     kSigmas * std::sqrt(means.back().variance) + 1e-3 * irradiance);
@@ -129,8 +129,8 @@ TEST(Sky, LightsAFloorByItsIrradiance) {
       }
     }
   }
-  // At as many samples: bsdf with one_ray (64 frames) and with none (1024).
-  EXPECT_LT(64 * means[1].variance, 0.1 * 1024 * means[0].variance);
+  // At as many samples: bsdf with one_ray (32 frames) and with none (512).
+  EXPECT_LT(32 * means[1].variance, 0.1 * 512 * means[0].variance);
 }
 
 // A lamp and a sky are chosen between, also where a wall hides the sky.
@@ -143,7 +143,7 @@ TEST(Sky, StandsBesideLamps) {
       if (nee == Nee::none && lights != LightChoice::power) continue;
       RenderSettings settings = settings_of(3, nee);
       settings.lights = lights;
-      means.push_back(block_estimate(render(scene, settings, 512).image, 0, 0, kSize));
+      means.push_back(block_estimate(render(scene, settings, 192).image, 0, 0, kSize));
     }
   }
   for (std::size_t i = 1; i < means.size(); ++i) {
