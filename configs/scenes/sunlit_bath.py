@@ -28,7 +28,7 @@ OAK = Texture(wood("oak", (0.20, 0.10, 0.045), (0.50, 0.31, 0.16), 1, 4), 0.5)
 
 def _tiles(name: str, colour: Vec) -> Material:
     return Material(
-        name, (1.0, 1.0, 1.0), roughness=1, specular=1, clearcoat=1, clearcoat_roughness=0.02,
+        name, (1.0, 1.0, 1.0), roughness=1, specular=1, clearcoat=1, clearcoat_roughness=0.1,
         colour_map=Texture(GLAZED.colours(name, colour, (0.62, 0.60, 0.56), 0.22, 3), 0.4),
         roughness_map=Texture(GLAZED.roughness("tile_roughness", 0.35, 0.95), 0.4), normal_map=TILE_RELIEF)
 
@@ -39,7 +39,7 @@ FLOOR = Material("stone", (0.78, 0.72, 0.64), roughness=0.35, specular=1,
 PLASTER = Material("plaster", (0.80, 0.76, 0.70), roughness=1, normal_map=PLASTER_RELIEF)
 WOOD = Material("oak", (1.0, 1.0, 1.0), roughness=0.45, specular=1, colour_map=OAK)
 PAINT = Material("white_paint", (0.78, 0.77, 0.74), roughness=0.4, specular=1)
-CERAMIC = Material("ceramic", (0.82, 0.81, 0.78), roughness=0.6, specular=1, clearcoat=1, clearcoat_roughness=0)
+CERAMIC = Material("ceramic", (0.82, 0.81, 0.78), roughness=0.6, specular=1, clearcoat=1, clearcoat_roughness=0.1)
 MIRROR = Material("mirror", (0.93, 0.94, 0.93), metallic=1, roughness=0, specular=1)
 CHROME = Material("chrome", (0.65, 0.66, 0.67), metallic=1, roughness=0.08, specular=1)
 GLASS = Material("glass", (1.0, 1.0, 1.0), roughness=0, specular=1, transmission=1, ior=1.52,

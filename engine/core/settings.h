@@ -114,9 +114,11 @@ void visit_knobs(Visitor& visit, RenderSettings& settings, Environment& environm
   visit(KnobInfo{"sampler", "", "how the next direction of a path is drawn"}, settings.sampler);
   visit(KnobInfo{"nee", "", "next event estimation: direct light by sampling the lights"}, settings.nee);
   visit(
-      KnobInfo{"lights", "",
-               "how next event estimation picks a light (a connected emitting surface): all alike, by power, "
-               "or by what the cell has learned of it"},
+      KnobInfo{
+          "lights", "",
+          "how next event estimation picks a light (a connected emitting surface, an image of the "
+          "environment, a light without a surface): all alike, by power, or by what the cell has learned "
+          "of it"},
       settings.lights);
   // The lower end keeps every light reachable, whatever was learned.
   visit(KnobInfo{"light_floor", "probability", "share of learned light choices that goes by power", 0.001, 1},
