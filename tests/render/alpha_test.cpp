@@ -62,7 +62,7 @@ TEST(Alpha, MasksCutWhereTheTextureIsBelowTheCutoff) {
   Scene scene = veils(1, 1);
   scene.materials[0].alpha_mode = AlphaMode::mask;
   scene.materials[0].alpha_cutoff = 0.5F;
-  TextureImage image{"mask", 2, 1, {{0, 0, 0, 0}, {0, 0, 0, 65535}}};
+  TextureImage image{"mask", 2, 1, {{0, 0, 0, 30000}, {0, 0, 0, 36000}}};
   set_texture(scene, TextureSlot::base_color, image, {.is_nearest = true});
   const Rendering r = render(scene, settings_of(0), 4);
   for (int i = 0; i < kSize * kSize; ++i) {

@@ -191,7 +191,7 @@ TEST(Unlit, EmitsItsBaseColourAndReflectsNothing) {
 
 // Unlit surfaces light what paths find them from, and are no lights: all methods agree.
 TEST(Unlit, LightsAlikeByEveryMethod) {
-  Scene scene = lit_floor(0.8F, 10, 1, 1).scene;
+  Scene scene = lit_floor(0.8F, 1, 1, 1).scene;
   Material m;
   m.base_color = glm::vec3(1);
   m.is_unlit = true;
