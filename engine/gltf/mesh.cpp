@@ -105,12 +105,12 @@ void ObjectBuilder::add_primitive(const Primitive& primitive, std::uint32_t mate
 }
 
 void ObjectBuilder::skip_primitive(const Primitive& primitive, const std::string& place) {
-  constexpr std::array kNames{"points", "lines", "a line loop", "a line strip"};
+  constexpr std::array kNames{"a set of points", "a set of lines", "a line loop", "a line strip"};
   if (static_cast<std::size_t>(primitive.mode()) >= kNames.size()) {
     source_.warn("{}: {} has no POSITION; it is skipped", place, primitive.place());
     return;
   }
-  source_.warn("{}: {} holds {}, which are not modelled; it is skipped", place, primitive.place(),
+  source_.warn("{}: {} holds {}, which has no surface; it is skipped", place, primitive.place(),
                kNames.at(static_cast<std::size_t>(primitive.mode())));
 }
 

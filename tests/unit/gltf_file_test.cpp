@@ -55,6 +55,8 @@ TEST_F(GltfFileTest, RefusesBrokenJson) {
   expect_error(folder.write("scene.gltf", "[1]"), {"the JSON is not an object"});
   expect_error(folder.write("scene.gltf", "{}"), {"asset.version is missing"});
   expect_error(folder.write("scene.gltf", R"({"asset": {"version": "1.0"}})"), {"asset.version is \"1.0\""});
+  expect_error(folder.write("scene.gltf", R"({"asset": {"version": 1}})"),
+               {"asset.version is 1; \"2.0\" would be right"});
   expect_error(folder.write("scene.gltf", R"({"asset": {"version": "2.0", "minVersion": "2.1"}})"),
                {"asset.minVersion is \"2.1\""});
   const std::string nest(100000, '[');

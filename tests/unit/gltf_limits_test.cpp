@@ -87,7 +87,7 @@ TEST_F(GltfLimitsTest, ManyWarningsAreCounted) {
   add_instances(points(), 300, 2);
   const Scene scene = load();
   ASSERT_EQ(scene.warnings.size(), 101U);
-  EXPECT_NE(scene.warnings[99].find("mesh 1 primitive 99 holds points"), std::string::npos)
+  EXPECT_NE(scene.warnings[99].find("mesh 1 primitive 99 holds a set of points"), std::string::npos)
       << scene.warnings[99];
   EXPECT_EQ(scene.warnings[100], "502 more warnings are left out");  // two objects are omitted
 }

@@ -56,12 +56,12 @@ TEST_F(GltfWarningTest, WarnsOfAnimations) {
 }
 
 TEST_F(GltfWarningTest, SkipsPointsAndLines) {
-  const std::vector<std::string> names{"points", "lines", "a line loop", "a line strip"};
+  const std::vector<std::string> names{"a set of points", "a set of lines", "a line loop", "a line strip"};
   gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive_json());
   for (const int mode : {kPoints, kLines, kLineLoop, kLineStrip}) {
     gltf.primitive_json()["mode"] = mode;
     expect_warning("object 'thing': mesh 'shape' primitive 0 holds " + names[static_cast<std::size_t>(mode)] +
-                   ", which are not modelled; it is skipped");
+                   ", which has no surface; it is skipped");
     EXPECT_EQ(load().triangles.size(), 1U);
   }
   gltf.json["meshes"][0]["primitives"][1]["mode"] = kPoints;
