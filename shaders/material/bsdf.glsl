@@ -90,21 +90,22 @@ void add_coat(inout Bsdf b, Surface s, vec3 wo) {
 }
 #endif
 
-vec4 base_color_at(Surface s) {
-  vec4 base = base_color_of(s.material);
+// What the texture and the vertices multiply the base colour with.
+vec3 base_color_factor(Surface s) {
+  vec3 factor = vec3(1.0);
 #if HAS_TEXTURE(TEXTURE_BASE_COLOR)
-  base.rgb *= factor_at(s.material, uint(TEXTURE_BASE_COLOR), s.uv).rgb;
+  factor *= factor_at(s.material, uint(TEXTURE_BASE_COLOR), s.uv).rgb;
 #endif
 #ifdef HAS_COLORS
-  base.rgb *= s.color.rgb;
+  factor *= s.color.rgb;
 #endif
-  return base;
+  return factor;
 }
 
 Bsdf bsdf_of(Surface s, vec3 wo) {
   Bsdf b;
-  vec4 base = base_color_at(s);
-  b.base_color = base.rgb;
+  vec4 base = base_color_of(s.material);
+  b.base_color = base.rgb * base_color_factor(s);
 #ifdef HAS_SPECULAR
   b.metallic = base.w;
   add_gloss(b, s);

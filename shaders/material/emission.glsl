@@ -17,15 +17,7 @@ vec3 emitted_radiance(Surface s, Bsdf b) {
 #endif
 #ifdef HAS_UNLIT
   // KHR_materials_unlit: its base colour, which no coat has anything to do with.
-  if (emission.w == EMITS_UNLIT) {
-    emission = emission_of(s.material);
-#if HAS_TEXTURE(TEXTURE_BASE_COLOR)
-    emission.rgb *= factor_at(s.material, uint(TEXTURE_BASE_COLOR), s.uv).rgb;
-#endif
-#ifdef HAS_COLORS
-    emission.rgb *= s.color.rgb;
-#endif
-  }
+  if (emission.w == EMITS_UNLIT) emission.rgb = emission_of(s.material).rgb * base_color_factor(s);
 #endif
   return s.back && emission.w == EMITS_FRONT ? vec3(0.0) : emission.rgb;
 }

@@ -213,7 +213,7 @@ MUTATIONS = [
     Mutation("the first set of coordinates for the second", "geometry/texture.glsl", "modes.w == 0u ? uv.xy : uv.zw", "uv.xy"),
     Mutation("roughness from the channel beside it", "material/bsdf.glsl", "roughness.y * factors.g", "roughness.y * factors.r"),
     Mutation("strength of the specular lobe from red", "material/bsdf.glsl", "uint(TEXTURE_SPECULAR), s.uv).a", "uint(TEXTURE_SPECULAR), s.uv).r"),
-    Mutation("vertices without their colours", "material/bsdf.glsl", "base.rgb *= s.color.rgb;", ""),
+    Mutation("vertices without their colours", "material/bsdf.glsl", "factor *= s.color.rgb;", ""),
     Mutation("bumps turned over where the map is mirrored", "geometry/normal_map.glsl", "tangent.w * cross(normal, t)", "cross(normal, t)"),
     Mutation("bent normals that mirror below the surface", "geometry/normal_map.glsl",
              "return is_kept ? normal : normalize(wo + raised);", "return normal;"),
