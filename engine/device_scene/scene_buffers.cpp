@@ -35,7 +35,11 @@ std::vector<TriangleShape> pack_shapes(const Scene& scene, const Bvh& bvh) {
 // TriangleShade, and behind each corner's normal what else the features ask for.
 class ShadePacker {
  public:
-  ShadePacker(const Scene& scene, const SceneFeatures& features) : scene_(scene), features_(features) {}
+  ShadePacker(const Scene& scene, const SceneFeatures& features, std::size_t triangles)
+      : scene_(scene), features_(features) {
+    const int vec4s = 1 + (features.textures != 0) + features.tangents + features.colors;  // of a corner
+    all_.reserve(3 * triangles * static_cast<std::size_t>(vec4s));
+  }
 
   void add(const Triangle& t, uint light) {
     const std::array<uint, 3> links{t.material, t.object, light};
@@ -60,7 +64,7 @@ class ShadePacker {
 
 std::vector<vec4> pack_shades(const Scene& scene, const Bvh& bvh, const LightTable& lights,
                               const SceneFeatures& features) {
-  ShadePacker packer(scene, features);
+  ShadePacker packer(scene, features, bvh.order.size());
   for (const uint i : bvh.order) {
     if (i == kNoTriangle) {
       packer.add(Triangle{}, NO_LIGHT);

@@ -55,19 +55,18 @@ SceneFeatures find_features(const Scene& scene) {
 
 SceneFeatures find_features(const Scene& scene, const LightTable& lights) {
   SceneFeatures features;
-  features.specular = std::ranges::any_of(scene.materials, has_specular_lobe);
+  const auto any = [&](auto has_it) { return std::ranges::any_of(scene.materials, has_it); };
+  features.specular = any(has_specular_lobe);
   features.textures = texture_bits(scene);
   features.tangents =
       has(features.textures, TextureSlot::normal) || has(features.textures, TextureSlot::clearcoat_normal);
   features.colors = std::ranges::any_of(scene.attributes, has_color);
-  const auto any = [&](auto has_it) { return std::ranges::any_of(scene.materials, has_it); };
   features.transmission = any(lets_pass);
   features.absorption = any(absorbs);
   features.clearcoat = any(has_coat);
   features.delta = any(may_mirror);
   features.unlit = any([](const qtrace::Material& m) { return m.is_unlit; });
-  features.alpha = std::ranges::any_of(
-      scene.materials, [](const qtrace::Material& m) { return m.alpha_mode != AlphaMode::opaque; });
+  features.alpha = any([](const qtrace::Material& m) { return m.alpha_mode != AlphaMode::opaque; });
   features.punctual =
       std::ranges::any_of(lights.lights, [](const Light& light) { return light.choice.z >= LIGHT_POINT; });
   if (!lights.sky.empty()) {
