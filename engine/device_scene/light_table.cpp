@@ -102,13 +102,13 @@ void add_lights_without_surface(LightTable& table, const Scene& scene, std::vect
     add(pack_punctual(light), power_of(light, radius), typical_radiance(light, radius));
   }
   if (!scene.environment) return;
-  SkyTable sky = build_sky_table(*scene.environment);
-  if (sky.texels.empty()) return;
-  table.sky = std::move(sky.texels);
+  const double radiance = mean_radiance(*scene.environment);
+  if (radiance <= 0) return;
+  table.has_sky = true;
   Light light{};
   light.choice.z = LIGHT_SKY;
-  light.axis.w = static_cast<float>(sky.mean_radiance);
-  add(light, 4 * sky.mean_radiance * radius * radius, sky.mean_radiance);
+  light.axis.w = static_cast<float>(radiance);
+  add(light, 4 * radiance * radius * radius, radiance);
 }
 
 void set_choices(LightTable& table, LightChoice choice, const std::vector<double>& powers) {

@@ -15,7 +15,7 @@ struct LightTable {
   std::vector<Light> lights;
   std::vector<LightTriangle> triangles;  // light by light
   std::vector<uint> triangle_of;  // by scene triangle, index in `triangles`; NO_LIGHT where it does not emit
-  std::vector<SkyTexel> sky;      // none where the scene has no image of the environment, or a black one
+  bool has_sky = false;           // the last light is an image of the environment that is not black
   float brightest = 0;            // mean radiance of the brightest
 };
 

@@ -3,6 +3,7 @@
 #include "engine/core/check.h"
 #include "engine/device_scene/light_table.h"
 #include "engine/device_scene/material_table.h"
+#include "engine/device_scene/sky_table.h"
 #include "engine/device_scene/vec4s.h"
 
 #include <bit>
@@ -87,11 +88,13 @@ std::vector<LightTriangle> with_places(const LightTable& lights, const Bvh& bvh)
 }
 
 // The environment's texels behind the lights.
-std::vector<vec4> pack_lights(const LightTable& lights) {
+std::vector<vec4> pack_lights(const Scene& scene, const LightTable& lights) {
   std::vector<vec4> all;
-  all.reserve(lights.lights.size() * vec4s_of<Light>() + lights.sky.size() * vec4s_of<SkyTexel>());
   for (const Light& light : lights.lights) append_vec4s(all, light);
-  for (const SkyTexel& texel : lights.sky) append_vec4s(all, texel);
+  if (!lights.has_sky) return all;
+  const std::vector<SkyTexel> sky = build_sky_table(*scene.environment);
+  all.reserve(all.size() + sky.size() * vec4s_of<SkyTexel>());
+  for (const SkyTexel& texel : sky) append_vec4s(all, texel);
   return all;
 }
 
@@ -108,7 +111,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Bvh& bvh, const LightTable&
       shades_("triangle normals", pack_shades(scene, bvh, lights, features_), only_fetched(Texels::float4)),
       materials_("materials", pack_materials(scene, textures), only_fetched(Texels::float4)),
       light_triangles_("light triangles", with_places(lights, bvh), only_fetched(Texels::float4)),
-      lights_("lights", pack_lights(lights), only_fetched(Texels::float4)),
+      lights_("lights", pack_lights(scene, lights), only_fetched(Texels::float4)),
       texels_(kTexels, textures.texels, only_fetched(Texels::half4)) {
   for (const qtrace::Material& m : scene.materials) {
     if (!has_specular_lobe(m) || m.roughness >= LEAST_ROUGHNESS || m.roughness == 0) continue;

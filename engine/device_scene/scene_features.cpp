@@ -69,7 +69,7 @@ SceneFeatures find_features(const Scene& scene, const LightTable& lights) {
   features.alpha = any([](const qtrace::Material& m) { return m.alpha_mode != AlphaMode::opaque; });
   features.punctual =
       std::ranges::any_of(lights.lights, [](const Light& light) { return light.choice.z >= LIGHT_POINT; });
-  if (!lights.sky.empty()) {
+  if (lights.has_sky) {
     features.sky = {scene.environment->width, scene.environment->height};
     features.sky_turn = scene.environment->rotation / (2 * std::numbers::pi_v<float>);
   }

@@ -2,8 +2,10 @@
 
 #include "engine/device_scene/alias_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace qtrace::gpu {
 namespace {
@@ -31,27 +33,39 @@ double solid_angle(const EnvironmentMap& map, std::uint32_t row) {
   return 2 * std::numbers::pi / map.width * (upper - lower);
 }
 
-}  // namespace
-
-SkyTable build_sky_table(const EnvironmentMap& map) {
-  SkyTable table;
+// What each texel brings, row by row: by these they are drawn.
+std::vector<double> weights_of(const EnvironmentMap& map) {
   std::vector<double> weights;
-  double total = 0;
+  weights.reserve(map.radiance.size());
   for (std::uint32_t row = 0; row < map.height; ++row) {
     for (std::uint32_t column = 0; column < map.width; ++column) {
       weights.push_back(mean_over_texel(map, column, row) * solid_angle(map, row));
-      total += weights.back();
     }
   }
-  table.mean_radiance = total / (4 * std::numbers::pi);
-  if (total <= 0) return table;
+  return weights;
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+}  // namespace
+
+double mean_radiance(const EnvironmentMap& map) { return sum_of(weights_of(map)) / (4 * std::numbers::pi); }
+
+std::vector<SkyTexel> build_sky_table(const EnvironmentMap& map) {
+  const std::vector<double> weights = weights_of(map);
+  const double total = sum_of(weights);
+  std::vector<SkyTexel> texels;
+  if (total <= 0) return texels;
+  texels.reserve(weights.size());
   const std::vector<AliasSlot> slots = build_aliases(weights);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double density = weights[i] / total / solid_angle(map, static_cast<std::uint32_t>(i / map.width));
-    table.texels.push_back({vec4(map.radiance[i], static_cast<float>(density)),
-                            uvec4(slots[i].alias, slots[i].threshold, 0, 0)});
+    texels.push_back({vec4(map.radiance[i], static_cast<float>(density)),
+                      uvec4(slots[i].alias, slots[i].threshold, 0, 0)});
   }
-  return table;
+  return texels;
 }
 
 }  // namespace qtrace::gpu

@@ -8,13 +8,11 @@
 
 namespace qtrace::gpu {
 
-struct SkyTable {
-  std::vector<SkyTexel> texels;  // row by row; none where the whole image is black
-  double mean_radiance = 0;      // over all directions and channels
-};
+// Over all directions and channels; 0 where the whole image is black.
+double mean_radiance(const EnvironmentMap& map);
 
-// A texel is drawn in proportion to what its bilinear radiance brings: its mean over the texel times the
-// texel's solid angle. So no direction with radiance has a density of zero.
-SkyTable build_sky_table(const EnvironmentMap& map);
+// Row by row; none of a black image. A texel is drawn in proportion to what its bilinear radiance brings: its
+// mean over the texel times the texel's solid angle. So no direction with radiance has a density of zero.
+std::vector<SkyTexel> build_sky_table(const EnvironmentMap& map);
 
 }  // namespace qtrace::gpu
