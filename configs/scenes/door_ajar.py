@@ -11,8 +11,9 @@ from faceted import GOLDEN, crumpled, gem, vase
 from furniture import cabinet, chair, shelf, table
 from gltf_writer import Camera, Material, Object
 from models import head, teapot
+from placing import placed
 from shapes import Vec, box, moved, rectangle
-from unwrap import Island, pack
+from unwrap import pack
 from walls import Wall
 
 HALF_X, DEPTH, HEIGHT = 2.2, 4.0, 2.6  # of each room, from the partition's middle plane
@@ -41,12 +42,6 @@ COVERS = [Material("cover_red", (0.60, 0.18, 0.14)), Material("cover_blue", (0.2
           Material("cover_grey", (0.55, 0.55, 0.56))]
 
 
-def _object(name: str, material: Material, islands: list[Island], turn: float = 0, base: Vec = (0, 0, 0),
-            lean: float = 0) -> Object:
-    """Turned and leant by degrees, then moved to `base`."""
-    return Object(name, pack(moved(islands, math.radians(turn), base, math.radians(lean))), material)
-
-
 def _shell(room: str, side: int, walls: Material) -> list[Object]:
     """Floor, ceiling and the three walls of one room, seen from inside; side 1: at +z."""
     middle, far, half = side * DEPTH / 2, side * DEPTH, HEIGHT / 2
@@ -69,9 +64,9 @@ def _partition() -> list[Object]:
     hinge = (DOOR_X - DOORWAY[0] - OVERLAP, -OVERLAP / 4, THICKNESS / 2 - OVERLAP / 8)
     leaf = box((width / 2, height / 2, LEAF_THICKNESS / 2), (width, height, LEAF_THICKNESS))
     knob = moved(gem(0.03, 8), 0, (width - 0.07, 1.0, LEAF_THICKNESS + 0.024))
-    return [_object("partition", PLASTER, wall.islands(), 0, (0, -OVERLAP, 0)),
-            _object("door_leaf", DOOR, leaf, -math.degrees(AJAR), hinge),
-            _object("door_knob", HOUSING, knob, -math.degrees(AJAR), hinge)]
+    return [placed("partition", PLASTER, wall.islands(), 0, (0, -OVERLAP, 0)),
+            placed("door_leaf", DOOR, leaf, -math.degrees(AJAR), hinge),
+            placed("door_knob", HOUSING, knob, -math.degrees(AJAR), hinge)]
 
 
 def _lamps() -> list[Object]:
@@ -82,7 +77,7 @@ def _lamps() -> list[Object]:
         stand = [*box((x, 0.015, z), (0.34, 0.03, 0.34)), *box((x, 0.78, z), (0.03, 1.5, 0.03)),
                  *box((x, 1.73, z), (0.46, 0.46, 0.04))]
         panel = rectangle((x, 1.73, z - 0.025), (-0.2, 0, 0), (0, 0.2, 0))
-        objects += [_object(f"lamp_{i}_stand", HOUSING, stand), _object(f"lamp_{i}", light, [panel])]
+        objects += [placed(f"lamp_{i}_stand", HOUSING, stand), placed(f"lamp_{i}", light, [panel])]
     return objects
 
 
@@ -99,7 +94,7 @@ def _books(name: str, x: float, end: float, y: float, z: float, seed: int) -> li
         x += max(height * (math.sin(lean) - math.cos(lean) * math.tan(before)), 0)
         if x + thickness / math.cos(lean) > end:
             return objects
-        objects.append(_object(f"{name}_{len(objects) + 1}", COVERS[(3 * seed + 2 * len(objects)) % len(COVERS)],
+        objects.append(placed(f"{name}_{len(objects) + 1}", COVERS[(3 * seed + 2 * len(objects)) % len(COVERS)],
                                box((thickness / 2, height / 2, 0), (thickness, height, depth)), 0, (x, y, z),
                                math.degrees(lean)))
         x += thickness / math.cos(lean) + 0.002
@@ -112,7 +107,7 @@ def _pile(name: str, x: float, z: float, y: float, count: int, seed: int) -> lis
     for k in range(count):
         u, v, w = ((k + 17 * seed + 1) * (i + 1) * GOLDEN % 1 for i in range(3))
         thickness = 0.02 + 0.03 * u
-        objects.append(_object(f"{name}_{k + 1}", COVERS[(seed + 3 * k) % len(COVERS)],
+        objects.append(placed(f"{name}_{k + 1}", COVERS[(seed + 3 * k) % len(COVERS)],
                                box((0, thickness / 2, 0), (0.17 + 0.05 * v, thickness, 0.24 + 0.05 * w)),
                                70 * (w - 0.5) + 20 * seed, (x, y, z)))
         y += thickness + 0.001
@@ -123,21 +118,21 @@ def _dark_room() -> list[Object]:
     at_table: Vec = (-1.25, 0, 1.9)
     top = 0.761
     objects = [
-        _object("table", WOOD, table(0, 0), 24, at_table),
-        _object("chair_1", LACQUER, chair(0, 0), -20, (-1.45, 0, 1.15)),
-        _object("chair_2", CLAY, chair(0, 0), 205, (-0.75, 0, 2.6)),
-        _object("shelf", WOOD, shelf(0, 0), 0, (1.45, 0, THICKNESS / 2 + 0.16)),
-        _object("cabinet", SAGE, cabinet(0, 0), 90, (-1.68, 0, 0.35)),
-        _object("teapot", GLAZE, teapot(0, (0, 0, 0)), -40, (-1.4, top, 1.85)),
-        _object("vase", CLAY, vase(), 10, (-0.95, top, 1.75)),
-        _object("gem", PAPER, gem(0.16), 5, (-1.9, 1.06, 0.35)),
-        _object("head", PAPER, head(0.42, 0, (0, 0, 0)), 40, (-1.45, 0.901, 0.35)),
-        _object("vase_large", GLAZE, vase(9), 40, (0.62, 0.001, 0.45)),
-        _object("crate", WOOD, box((0, 0.16, 0), (0.42, 0.32, 0.34)), 37, (0.55, 0.001, 1.2)),
+        placed("table", WOOD, table(0, 0), 24, at_table),
+        placed("chair_1", LACQUER, chair(0, 0), -20, (-1.45, 0, 1.15)),
+        placed("chair_2", CLAY, chair(0, 0), 205, (-0.75, 0, 2.6)),
+        placed("shelf", WOOD, shelf(0, 0), 0, (1.45, 0, THICKNESS / 2 + 0.16)),
+        placed("cabinet", SAGE, cabinet(0, 0), 90, (-1.68, 0, 0.35)),
+        placed("teapot", GLAZE, teapot(0, (0, 0, 0)), -40, (-1.4, top, 1.85)),
+        placed("vase", CLAY, vase(), 10, (-0.95, top, 1.75)),
+        placed("gem", PAPER, gem(0.16), 5, (-1.9, 1.06, 0.35)),
+        placed("head", PAPER, head(0.42, 0, (0, 0, 0)), 40, (-1.45, 0.901, 0.35)),
+        placed("vase_large", GLAZE, vase(9), 40, (0.62, 0.001, 0.45)),
+        placed("crate", WOOD, box((0, 0.16, 0), (0.42, 0.32, 0.34)), 37, (0.55, 0.001, 1.2)),
     ]
     for seed, (x, z, y, radius) in enumerate([(0.25, 0.7, 0, 0.09), (-0.1, 1.1, 0, 0.07), (1.15, 0.9, 0, 0.08),
                                               (0.55, 1.2, 0.321, 0.09), (-0.9, 2.05, top, 0.06)], start=1):
-        objects.append(_object(f"paper_{seed}", PAPER, crumpled(radius, seed), 50 * seed, (x, y + radius * 0.85, z)))
+        objects.append(placed(f"paper_{seed}", PAPER, crumpled(radius, seed), 50 * seed, (x, y + radius * 0.85, z)))
     for board, y in enumerate((0.116, 0.666, 1.216), start=1):
         objects += _books(f"book_{board}", 1.45 - 0.45, 1.45 + 0.45, y, THICKNESS / 2 + 0.15, board)
     return [*objects, *_pile("pile_1", 0.1, 1.75, 0.001, 5, 1), *_pile("pile_2", -1.3, 2.1, top, 3, 2),
@@ -146,11 +141,11 @@ def _dark_room() -> list[Object]:
 
 def _lit_room() -> list[Object]:
     return [
-        _object("lit_table", WOOD, table(0, 0), -12, (0.7, 0, -2.6)),
-        _object("lit_chair", CLAY, chair(0, 0), 160, (0.5, 0, -1.7)),
-        _object("lit_cabinet", LACQUER, cabinet(0, 0), 0, (-1.92, 0, -3.0)),
-        _object("lit_shelf", WOOD, shelf(0, 0), 0, (-0.6, 0, -3.8)),
-        _object("lit_vase", GLAZE, vase(), 0, (0.7, 0.761, -2.6)),
+        placed("lit_table", WOOD, table(0, 0), -12, (0.7, 0, -2.6)),
+        placed("lit_chair", CLAY, chair(0, 0), 160, (0.5, 0, -1.7)),
+        placed("lit_cabinet", LACQUER, cabinet(0, 0), 0, (-1.92, 0, -3.0)),
+        placed("lit_shelf", WOOD, shelf(0, 0), 0, (-0.6, 0, -3.8)),
+        placed("lit_vase", GLAZE, vase(), 0, (0.7, 0.761, -2.6)),
     ]
 
 

@@ -3,14 +3,12 @@ metal screen, so that much of the light has been reflected by gloss before it me
 
 from __future__ import annotations
 
-import math
-
 from faceted import gem, vase
 from furniture import cabinet, chair, table
 from gltf_writer import Camera, Material, Object
 from models import ball, bowl, shade, teapot
-from shapes import Vec, box, moved, rectangle
-from unwrap import Island, pack
+from placing import placed, room_walls
+from shapes import Vec, box, rectangle
 
 HALF, HEIGHT = 2.5, 2.7
 CAMERA = Camera(eye=(1.45, 1.6, 1.75), target=(-0.35, 0.65, -0.6), vertical_fov=62)
@@ -31,56 +29,41 @@ STEEL = _glossy("steel", (0.77, 0.78, 0.78), 0.2, 1)
 COPPER = _glossy("copper", (0.95, 0.64, 0.54), 0.1, 1)
 SCREEN = _glossy("screen", (0.92, 0.90, 0.86), 0.1, 1)
 LIGHT = Material("light", (0, 0, 0), (1600.0, 1360.0, 1050.0), roughness=0.3, specular=1)
-
-
-def _object(name: str, material: Material, islands: list[Island], turn: float = 0, base: Vec = (0, 0, 0)) -> Object:
-    return Object(name, pack(moved(islands, math.radians(turn), base)), material)
-
-
-def _shell() -> list[Object]:
-    half = HEIGHT / 2
-    sheets = {
-        "floor": (FLOOR, rectangle((0, 0, 0), (HALF, 0, 0), (0, 0, -HALF))),
-        "ceiling": (PAINT, rectangle((0, HEIGHT, 0), (HALF, 0, 0), (0, 0, HALF))),
-        "wall_left": (BLUE, rectangle((-HALF, half, 0), (0, 0, -HALF), (0, half, 0))),
-        "wall_right": (PAINT, rectangle((HALF, half, 0), (0, 0, HALF), (0, half, 0))),
-        "wall_back": (PAINT, rectangle((0, half, -HALF), (HALF, 0, 0), (0, half, 0))),
-        "wall_front": (PAINT, rectangle((0, half, HALF), (-HALF, 0, 0), (0, half, 0)))}
-    return [Object(name, pack([sheet]), material) for name, (material, sheet) in sheets.items()]
+WALLS = {"floor": FLOOR, "ceiling": PAINT, "wall_left": BLUE, "wall_right": PAINT, "wall_back": PAINT, "wall_front": PAINT}
 
 
 def _lamps() -> list[Object]:
     """One in a brass shade over the table; one low on the left that shines at the screen, away from the camera."""
     over: Vec = (-0.2, 1.75, -0.5)
     return [
-        _object("shade", BRASS, shade(), 0, over),
-        _object("cord", BLACK, box((over[0], (HEIGHT + over[1] + 0.2) / 2, over[2]), (0.012, HEIGHT - over[1] - 0.2, 0.012))),
-        _object("lamp_table", LIGHT, [rectangle((over[0], over[1] + 0.11, over[2]), (0.06, 0, 0), (0, 0, 0.06))]),
-        _object("spot", BLACK, box((-0.9, 0.18, -1.25), (0.2, 0.36, 0.08))),
-        _object("lamp_screen", LIGHT, [rectangle((-0.9, 0.26, -1.295), (-0.08, 0, 0), (0, 0.08, 0))]),
+        placed("shade", BRASS, shade(), 0, over),
+        placed("cord", BLACK, box((over[0], (HEIGHT + over[1] + 0.2) / 2, over[2]), (0.012, HEIGHT - over[1] - 0.2, 0.012))),
+        placed("lamp_table", LIGHT, [rectangle((over[0], over[1] + 0.11, over[2]), (0.06, 0, 0), (0, 0, 0.06))]),
+        placed("spot", BLACK, box((-0.9, 0.18, -1.25), (0.2, 0.36, 0.08))),
+        placed("lamp_screen", LIGHT, [rectangle((-0.9, 0.26, -1.295), (-0.08, 0, 0), (0, 0.08, 0))]),
     ]
 
 
 def _screen() -> list[Object]:
     """Three leaves behind the table, that send the spot's light up and over the room."""
     leaves = [(-1.62, -1.98, 28), (-0.95, -2.14, 0), (-0.28, -1.98, -28)]
-    return [_object(f"screen_{i}", SCREEN, box((0, 0.85, 0), (0.66, 1.7, 0.03)), turn, (x, 0.001, z))
+    return [placed(f"screen_{i}", SCREEN, box((0, 0.85, 0), (0.66, 1.7, 0.03)), turn, (x, 0.001, z))
             for i, (x, z, turn) in enumerate(leaves, start=1)]
 
 
 def glossy_room() -> list[Object]:
     top = 0.761
     return [
-        *_shell(), *_lamps(), *_screen(),
-        _object("table", LACQUER, table(0, 0), 12, (-0.2, 0, -0.5)),
-        _object("chair", BLACK, chair(0, 0), 150, (0.05, 0, 0.4)),
-        _object("cabinet", LACQUER, cabinet(0, 0), 0, (-2.2, 0, 0.1)),
-        _object("bowl", BRASS, bowl(), 0, (-0.1, top, -0.35)),
-        _object("teapot", COPPER, teapot(0, (0, 0, 0)), -25, (-0.5, top, -0.6)),
-        _object("vase", GLAZE, vase(), 0, (0.2, top, -0.62)),
-        _object("ball_cabinet", STEEL, ball(0.16), 0, (-2.2, 0.901, 0.2)),
-        _object("ball_floor", STEEL, ball(0.22), 0, (0.95, 0.001, -0.75)),
-        _object("gem", GLAZE, gem(0.14), 0, (0.75, 0.138, 0.1)),
-        _object("column", BLACK, box((0, 0.45, 0), (0.3, 0.9, 0.3)), 20, (1.55, 0.001, -1.7)),
-        _object("bowl_column", COPPER, bowl(), 0, (1.55, 0.902, -1.7)),
+        *room_walls(HALF, HALF, HEIGHT, WALLS), *_lamps(), *_screen(),
+        placed("table", LACQUER, table(0, 0), 12, (-0.2, 0, -0.5)),
+        placed("chair", BLACK, chair(0, 0), 150, (0.05, 0, 0.4)),
+        placed("cabinet", LACQUER, cabinet(0, 0), 0, (-2.2, 0, 0.1)),
+        placed("bowl", BRASS, bowl(), 0, (-0.1, top, -0.35)),
+        placed("teapot", COPPER, teapot(0, (0, 0, 0)), -25, (-0.5, top, -0.6)),
+        placed("vase", GLAZE, vase(), 0, (0.2, top, -0.62)),
+        placed("ball_cabinet", STEEL, ball(0.16), 0, (-2.2, 0.901, 0.2)),
+        placed("ball_floor", STEEL, ball(0.22), 0, (0.95, 0.001, -0.75)),
+        placed("gem", GLAZE, gem(0.14), 0, (0.75, 0.138, 0.1)),
+        placed("column", BLACK, box((0, 0.45, 0), (0.3, 0.9, 0.3)), 20, (1.55, 0.001, -1.7)),
+        placed("bowl_column", COPPER, bowl(), 0, (1.55, 0.902, -1.7)),
     ]

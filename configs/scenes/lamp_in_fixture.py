@@ -3,15 +3,13 @@ without having passed glass, and much of it has been reflected by metal before."
 
 from __future__ import annotations
 
-import math
-
 from furniture import cabinet, chair, table
 from gltf_material import Texture
 from gltf_writer import Camera, Material, Object
 from images import noise, normals, wood
 from models import ball, bowl, teapot
-from shapes import Vec, box, moved, rectangle
-from unwrap import Island, pack
+from placing import placed, room_walls
+from shapes import Vec, box
 from vessels import GLOBE, bulb, cone, glass_vase, globe, tumbler
 
 HALF, HEIGHT = 1.9, 2.5
@@ -36,22 +34,8 @@ GLASS = Material("glass", (1.0, 1.0, 1.0), roughness=0, specular=1, transmission
 BLUE_GLASS = Material("blue_glass", (1.0, 1.0, 1.0), roughness=0, specular=1, transmission=1, ior=1.5,
                       attenuation=(0.35, 0.60, 0.85), attenuation_metres=0.012)
 LIGHT = Material("light", (0, 0, 0), (1000.0, 780.0, 530.0))
-
-
-def _object(name: str, material: Material, islands: list[Island], turn: float = 0, base: Vec = (0, 0, 0)) -> Object:
-    return Object(name, pack(moved(islands, math.radians(turn), base)), material)
-
-
-def _shell() -> list[Object]:
-    half = HEIGHT / 2
-    sheets = {
-        "floor": (FLOOR, rectangle((0, 0, 0), (HALF, 0, 0), (0, 0, -HALF))),
-        "ceiling": (PLASTER, rectangle((0, HEIGHT, 0), (HALF, 0, 0), (0, 0, HALF))),
-        "wall_left": (GREEN, rectangle((-HALF, half, 0), (0, 0, -HALF), (0, half, 0))),
-        "wall_right": (PLASTER, rectangle((HALF, half, 0), (0, 0, HALF), (0, half, 0))),
-        "wall_back": (PLASTER, rectangle((0, half, -HALF), (HALF, 0, 0), (0, half, 0))),
-        "wall_front": (PLASTER, rectangle((0, half, HALF), (-HALF, 0, 0), (0, half, 0)))}
-    return [Object(name, pack([sheet]), material) for name, (material, sheet) in sheets.items()]
+WALLS = {"floor": FLOOR, "ceiling": PLASTER, "wall_left": GREEN, "wall_right": PLASTER, "wall_back": PLASTER,
+         "wall_front": PLASTER}
 
 
 def _lamp() -> list[Object]:
@@ -59,23 +43,23 @@ def _lamp() -> list[Object]:
     x, y, z = LAMP
     rod = y + GLOBE + 0.004
     return [
-        _object("bulb", LIGHT, bulb(0.035), 0, LAMP),
-        _object("globe", FROSTED, globe(0.004), 0, LAMP),
-        _object("cone", BRASS, cone(), 0, (x, y + 0.03, z)),
-        _object("rod", STEEL, box((x, (rod + HEIGHT - 0.002) / 2, z), (0.012, HEIGHT - 0.002 - rod, 0.012))),
+        placed("bulb", LIGHT, bulb(0.035), 0, LAMP),
+        placed("globe", FROSTED, globe(0.004), 0, LAMP),
+        placed("cone", BRASS, cone(), 0, (x, y + 0.03, z)),
+        placed("rod", STEEL, box((x, (rod + HEIGHT - 0.002) / 2, z), (0.012, HEIGHT - 0.002 - rod, 0.012))),
     ]
 
 
 def lamp_in_fixture() -> list[Object]:
     top = 0.761
     return [
-        *_shell(), *_lamp(),
-        _object("table", WOOD, table(0, 0), 8, (-0.1, 0, -0.35)),
-        _object("chair", LACQUER, chair(0, 0), 165, (0.25, 0, 0.45)),
-        _object("cabinet", WOOD, cabinet(0, 0), 0, (-1.62, 0, -0.6)),
-        _object("vase", BLUE_GLASS, glass_vase(), 0, (0.22, top, -0.52)),
-        _object("tumbler", GLASS, tumbler(), 0, (0.12, top, -0.16)),
-        _object("teapot", GLAZE, teapot(0, (0, 0, 0)), -35, (-0.42, top, -0.42)),
-        _object("bowl", STEEL, bowl(), 0, (-1.62, 0.901, -0.75)),
-        _object("ball", GLASS, ball(0.08), 0, (-1.58, 0.901, -0.38)),
+        *room_walls(HALF, HALF, HEIGHT, WALLS), *_lamp(),
+        placed("table", WOOD, table(0, 0), 8, (-0.1, 0, -0.35)),
+        placed("chair", LACQUER, chair(0, 0), 165, (0.25, 0, 0.45)),
+        placed("cabinet", WOOD, cabinet(0, 0), 0, (-1.62, 0, -0.6)),
+        placed("vase", BLUE_GLASS, glass_vase(), 0, (0.22, top, -0.52)),
+        placed("tumbler", GLASS, tumbler(), 0, (0.12, top, -0.16)),
+        placed("teapot", GLAZE, teapot(0, (0, 0, 0)), -35, (-0.42, top, -0.42)),
+        placed("bowl", STEEL, bowl(), 0, (-1.62, 0.901, -0.75)),
+        placed("ball", GLASS, ball(0.08), 0, (-1.58, 0.901, -0.38)),
     ]

@@ -6,8 +6,6 @@ counts (no degenerate pole triangles) and one way of flattening.
 
 from __future__ import annotations
 
-from typing import Sequence
-
 import numpy as np
 
 from shapes import Vec

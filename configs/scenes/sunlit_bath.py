@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from gltf_material import Texture
 from gltf_writer import Camera, Material, Object
 from images import Tiles, noise, normals, speckled, wood
 from models import ball
-from shapes import Vec, box, moved, rectangle
-from unwrap import Island, pack
+from placing import placed, room_walls
+from shapes import Vec, box, rectangle
 from vessels import basin, bottle, tap, tub, tumbler
 from windows import WindowWall
 
@@ -49,20 +47,10 @@ GREEN_GLASS = Material("green_glass", (1.0, 1.0, 1.0), roughness=0, specular=1, 
 TOWEL = Material("towel", (0.74, 0.42, 0.22))
 
 
-def _object(name: str, material: Material, islands: list[Island], turn: float = 0, base: Vec = (0, 0, 0)) -> Object:
-    return Object(name, pack(moved(islands, math.radians(turn), base)), material)
-
-
 def _shell() -> list[Object]:
-    x, z, half = WIDTH / 2, DEPTH / 2, HEIGHT / 2
-    sheets = {
-        "floor": (FLOOR, rectangle((0, 0, 0), (x, 0, 0), (0, 0, -z))),
-        "ceiling": (PLASTER, rectangle((0, HEIGHT, 0), (x, 0, 0), (0, 0, z))),
-        "wall_right": (TILES, rectangle((x, half, 0), (0, 0, z), (0, half, 0))),
-        "wall_back": (TILES, rectangle((0, half, -z), (x, 0, 0), (0, half, 0))),
-        "wall_front": (PLASTER, rectangle((0, half, z), (-x, 0, 0), (0, half, 0)))}
-    walls = [Object(name, pack([sheet]), material) for name, (material, sheet) in sheets.items()]
-    return [*walls, _object("wall_window", PLASTER, WINDOW.islands(), 90, (-x, 0, 0))]
+    walls = {"floor": FLOOR, "ceiling": PLASTER, "wall_right": TILES, "wall_back": TILES, "wall_front": PLASTER}
+    return [*room_walls(WIDTH / 2, DEPTH / 2, HEIGHT, walls),
+            placed("wall_window", PLASTER, WINDOW.islands(), 90, (-WIDTH / 2, 0, 0))]
 
 
 def _frame(name: str, half_x: float, half_y: float, turn: float, base: Vec) -> list[Object]:
@@ -70,12 +58,12 @@ def _frame(name: str, half_x: float, half_y: float, turn: float, base: Vec) -> l
     bar, deep, gap = 0.035, 0.02, 0.001
     sides = [box((s * (half_x + bar / 2), 0, deep / 2), (bar, 2 * (half_y - gap), deep)) for s in (-1, 1)]
     ends = [box((0, s * (half_y + bar / 2), deep / 2), (2 * (half_x + bar), bar, deep)) for s in (-1, 1)]
-    return [_object(f"{name}", MIRROR, [rectangle((0, 0, 0.008), (half_x, 0, 0), (0, half_y, 0))], turn, base),
-            _object(f"{name}_frame", WOOD, [face for part in (*sides, *ends) for face in part], turn, base)]
+    return [placed(f"{name}", MIRROR, [rectangle((0, 0, 0.008), (half_x, 0, 0), (0, half_y, 0))], turn, base),
+            placed(f"{name}_frame", WOOD, [face for part in (*sides, *ends) for face in part], turn, base)]
 
 
 def _window_frame() -> list[Object]:
-    return [_object(f"window_bar_{i}", PAINT, part, 90, (-WIDTH / 2, 0, 0)) for i, part in enumerate(WINDOW.frame(0.04), 1)]
+    return [placed(f"window_bar_{i}", PAINT, part, 90, (-WIDTH / 2, 0, 0)) for i, part in enumerate(WINDOW.frame(0.04), 1)]
 
 
 def _wash_stand() -> list[Object]:
@@ -84,10 +72,10 @@ def _wash_stand() -> list[Object]:
     legs = [box((dx, 0.39, dz), (0.05, 0.78, 0.05)) for dx in (-0.33, 0.33) for dz in (-0.19, 0.19)]
     parts = [box((0, 0.80, 0), (0.76, 0.04, 0.48)), box((0, 0.22, 0), (0.61, 0.03, 0.33)), *legs]
     return [
-        _object("wash_stand", WOOD, [face for part in parts for face in part], 0, (x, 0, z)),
-        _object("basin", CERAMIC, basin(), 0, (x - 0.02, top + 0.001, z + 0.02)),
-        _object("tap", CHROME, tap(), -90, (x - 0.02, top + 0.001, z - 0.215)),
-        *[_object(f"towel_{i}", TOWEL, box((0, 0.025, 0), (0.34, 0.05, 0.26)), turn, (x, 0.237 + 0.051 * i, z))
+        placed("wash_stand", WOOD, [face for part in parts for face in part], 0, (x, 0, z)),
+        placed("basin", CERAMIC, basin(), 0, (x - 0.02, top + 0.001, z + 0.02)),
+        placed("tap", CHROME, tap(), -90, (x - 0.02, top + 0.001, z - 0.215)),
+        *[placed(f"towel_{i}", TOWEL, box((0, 0.025, 0), (0.34, 0.05, 0.26)), turn, (x, 0.237 + 0.051 * i, z))
           for i, turn in enumerate((2, -3, 1))],
         *_frame("mirror_stand", 0.30, 0.40, 0, (x, 1.60, -DEPTH / 2 + 0.001)),
     ]
@@ -100,10 +88,10 @@ def _in_the_sun() -> list[Object]:
     seat = [*box((0, 0.445, 0), (0.40, 0.03, 0.40)), *[face for leg in legs for face in leg]]
     top = 0.461
     return [
-        _object("bath", CERAMIC, tub(), 0, (0.62, 0.001, -1.36)),
-        _object("stool", WOOD, seat, 15, stool),
-        _object("bottle_stool", GREEN_GLASS, bottle(), 0, (stool[0] - 0.07, top, stool[2] - 0.06)),
-        _object("tumbler_stool", GLASS, tumbler(), 0, (stool[0] + 0.07, top, stool[2] + 0.06)),
+        placed("bath", CERAMIC, tub(), 0, (0.62, 0.001, -1.36)),
+        placed("stool", WOOD, seat, 15, stool),
+        placed("bottle_stool", GREEN_GLASS, bottle(), 0, (stool[0] - 0.07, top, stool[2] - 0.06)),
+        placed("tumbler_stool", GLASS, tumbler(), 0, (stool[0] + 0.07, top, stool[2] + 0.06)),
         *_frame("mirror_wall", 0.36, 0.78, -90, (WIDTH / 2 - 0.001, 0.90, -0.45)),
     ]
 
@@ -112,6 +100,6 @@ def sunlit_bath() -> list[Object]:
     sill = 0.953
     return [
         *_shell(), *_window_frame(), *_wash_stand(), *_in_the_sun(),
-        _object("bottle_sill", GLASS, bottle(), 0, (-1.59, sill, -0.55)),
-        _object("glass_ball", GLASS, ball(0.055), 0, (-1.57, sill, 0.28)),
+        placed("bottle_sill", GLASS, bottle(), 0, (-1.59, sill, -0.55)),
+        placed("glass_ball", GLASS, ball(0.055), 0, (-1.57, sill, 0.28)),
     ]

@@ -10,7 +10,6 @@ import numpy as np
 
 from models import BOWL, revolve
 from rings import MICROMETRE, RingSurface
-from shapes import Vec
 from unwrap import Island
 
 # Outlines as (radius, height, samples up to the next point): up the outside, over the rim, down the inside.

@@ -37,12 +37,26 @@ double decode(std::uint16_t code, Decoding decoding) {
 
 std::uint16_t as_half(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
 
-void append_texels(std::vector<HalfTexel>& texels, const TextureImage& image, Decoding decoding) {
-  std::vector<std::uint16_t> halves, alphas;
-  for (std::uint32_t code = 0; code <= 0xffff; ++code) {
-    halves.push_back(as_half(decode(static_cast<std::uint16_t>(code), decoding)));
-    alphas.push_back(as_half(decode(static_cast<std::uint16_t>(code), Decoding::linear)));
+// What every code of a channel becomes; worked out where a scene first asks for it.
+class DecodedCodes {
+ public:
+  const std::vector<std::uint16_t>& of(Decoding decoding) {
+    std::vector<std::uint16_t>& halves = halves_[decoding];
+    if (!halves.empty()) return halves;
+    for (std::uint32_t code = 0; code <= 0xffff; ++code) {
+      halves.push_back(as_half(decode(static_cast<std::uint16_t>(code), decoding)));
+    }
+    return halves;
   }
+
+ private:
+  std::map<Decoding, std::vector<std::uint16_t>> halves_;
+};
+
+void append_texels(std::vector<HalfTexel>& texels, const TextureImage& image, Decoding decoding,
+                   DecodedCodes& codes) {
+  const auto& halves = codes.of(decoding);
+  const auto& alphas = codes.of(Decoding::linear);
   for (const TextureImage::Texel& t : image.texels) {
     texels.push_back({halves[t[0]], halves[t[1]], halves[t[2]], alphas[t[3]]});
   }
@@ -113,11 +127,12 @@ TextureTable build_texture_table(const Scene& scene) {
   none.fill(NO_TEXTURE);
   table.of.assign(scene.materials.size(), none);
   TexelPlaces places;
+  DecodedCodes codes;
   for_each_texture(scene, [&](std::size_t material, TextureSlot slot, const Texture& texture) {
     const TextureImage& image = scene.images[texture.image];
     const std::size_t first = places.of(texture.image, slot, [&](Decoding decoding) {
       const std::size_t begin = table.texels.size();
-      append_texels(table.texels, image, decoding);
+      append_texels(table.texels, image, decoding, codes);
       return begin;
     });
     table.of[material][static_cast<std::size_t>(slot)] = static_cast<std::uint32_t>(table.uses.size());

@@ -6,6 +6,8 @@
 
 namespace qtrace::gpu {
 
+static_assert(FETCHED_UNITS <= 96, "the units that every device of OpenGL 4.5 has");
+
 bool offers(Fetch fetch) {
   if (fetch != Fetch::image) return true;
   GLint units = 0;

@@ -57,6 +57,17 @@ struct DirectionSample {
 #endif
 };
 
+// By a sampler that has nothing to learn.
+DirectionSample untaught(vec3 direction, float pdf) {
+  DirectionSample result;
+  result.direction = direction;
+  result.pdf = pdf;
+  result.bsdf = 0.0;
+  result.entry = NO_ENTRY;
+  result.share = NO_ENTRY;
+  return result;
+}
+
 #if SAMPLER == SAMPLER_RL
 
 // One-sample MIS: p = c p_bsdf + (1 - c) p_Q; p_bsdf alone where no table guides.
@@ -138,13 +149,7 @@ DirectionSample sample_hemisphere(Event e, uvec4 bits) {
   float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
   float phi = 2.0 * PI * to_unit(bits.z);
   vec3 local = vec3(sine * cos(phi), sine * sin(phi), cosine);
-  DirectionSample result;
-  result.direction = to_world(local, tangent_of(e.surface.normal), e.surface.normal);
-  result.pdf = 0.5 / PI;
-  result.bsdf = 0.0;
-  result.entry = NO_ENTRY;
-  result.share = NO_ENTRY;
-  return result;
+  return untaught(to_world(local, tangent_of(e.surface.normal), e.surface.normal), 0.5 / PI);
 }
 
 #else
@@ -155,13 +160,7 @@ float hemisphere_pdf(Event e, vec3 wi) {
 
 DirectionSample sample_hemisphere(Event e, uvec4 bits) {
   vec3 wi = sample_table_lobes(e.surface, e.bsdf, e.wo, vec2(to_unit(bits.y), to_unit(bits.z)), to_unit(bits.w));
-  DirectionSample result;
-  result.direction = wi;
-  result.pdf = table_lobes_pdf(e.surface, e.bsdf, e.wo, wi);
-  result.bsdf = 0.0;
-  result.entry = NO_ENTRY;
-  result.share = NO_ENTRY;
-  return result;
+  return untaught(wi, table_lobes_pdf(e.surface, e.bsdf, e.wo, wi));
 }
 
 #endif

@@ -263,7 +263,9 @@ const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
 const int BINDING_BSDF_SHARES = 23;
 
-// Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit.
+// Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit. There may be more of
+// them than one program may use: that is at most 16 where a device allows no more (MAX_COMPUTE_TEXTURE_IMAGE_UNITS of OpenGL
+// 4.5), and of units there are 96 or more (MAX_COMBINED_TEXTURE_IMAGE_UNITS).
 const int BINDING_FETCHED = 25;
 const int UNIT_SHAPES = 0;
 const int UNIT_SHADES = 1;

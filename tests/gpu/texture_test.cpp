@@ -1,4 +1,6 @@
 // Textures as the shaders read them, against a look-up in double precision; and what they do to a surface.
+#include "engine/core/check.h"
+#include "engine/device_scene/scene_buffers.h"
 #include "engine/device_scene/scene_features.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
@@ -259,6 +261,31 @@ TEST(Textures, FactorsFromATextureAreAsFromTheMaterial) {
   const auto a = shown(plain), b = shown(textured);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_LT(glm::length(a[i] - b[i]), 2e-3 * glm::length(a[i])) << i;
+  }
+}
+
+// An image that is read as colour, as numbers and as normals stands there three times.
+TEST(Textures, WithMoreTexelsThanTheDeviceHoldsAreRefused) {
+  device();
+  constexpr std::uint32_t kWidth = 32768;
+  const std::size_t most =
+      gpu::most_buffer_bytes(gpu::only_fetched(gpu::Texels::half4)) / sizeof(gpu::HalfTexel);
+  const auto height = static_cast<std::uint32_t>(most / 3 / kWidth + 1);
+  if (height > 4096) GTEST_SKIP() << "this device holds more than the test has memory for";
+  Scene scene = textured_quad();
+  set_texture(scene, TextureSlot::base_color, {"wide", kWidth, height, {}});
+  scene.images[0].texels.resize(std::size_t{kWidth} * height);
+  for (const TextureSlot slot : {TextureSlot::metallic_roughness, TextureSlot::transmission}) {
+    scene.materials[0].texture(slot) = scene.materials[0].texture(TextureSlot::base_color);
+  }
+  gpu::check_texels(scene);  // colours and numbers: twice
+  scene.materials[0].texture(TextureSlot::normal) = scene.materials[0].texture(TextureSlot::base_color);
+  try {
+    gpu::check_texels(scene);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the texels of all textures"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -14,13 +14,7 @@ constexpr int kSize = 16;
 constexpr double kSigmas = 4;
 
 RenderSettings settings_of(int max_bounces, Nee nee = Nee::none) {
-  RenderSettings settings;
-  settings.width = settings.height = kSize;
-  settings.sampler = Sampler::bsdf;
-  settings.max_bounces = max_bounces;
-  settings.nee = nee;
-  settings.random = RandomNumbers::independent;
-  return settings;
+  return square_settings(kSize, max_bounces, nee);
 }
 
 void expect_mean(const Scene& scene, const RenderSettings& settings, int frames, double truth) {

@@ -17,13 +17,9 @@ constexpr int kSize = 16;
 constexpr double kSigmas = 4;
 
 RenderSettings settings_of(int max_bounces, double sky = 1) {
-  RenderSettings settings;
-  settings.width = settings.height = kSize;
-  settings.sampler = Sampler::bsdf;
-  settings.max_bounces = max_bounces;
+  RenderSettings settings = square_settings(kSize, max_bounces);
   settings.russian_roulette_start = 1000;
   settings.environment = {sky, sky, sky};
-  settings.random = RandomNumbers::independent;
   return settings;
 }
 

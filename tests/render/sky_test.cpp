@@ -22,13 +22,7 @@ constexpr double kSigmas = 4;
 constexpr int kSize = 16;
 
 RenderSettings settings_of(int max_bounces, Nee nee = Nee::none) {
-  RenderSettings settings;
-  settings.width = settings.height = kSize;
-  settings.sampler = Sampler::bsdf;
-  settings.max_bounces = max_bounces;
-  settings.nee = nee;
-  settings.random = RandomNumbers::independent;
-  return settings;
+  return square_settings(kSize, max_bounces, nee);
 }
 
 EnvironmentMap random_sky(std::uint32_t width, std::uint32_t height) {

@@ -36,6 +36,17 @@ inline RenderSettings with_method(RenderSettings settings, const Method& method)
   return settings;
 }
 
+// A square picture by the BSDF's own directions and independent numbers, whose blocks have a spread.
+inline RenderSettings square_settings(int size, int max_bounces, Nee nee = Nee::none) {
+  RenderSettings settings;
+  settings.width = settings.height = size;
+  settings.sampler = Sampler::bsdf;
+  settings.max_bounces = max_bounces;
+  settings.nee = nee;
+  settings.random = RandomNumbers::independent;
+  return settings;
+}
+
 struct Rendering {
   RadianceImage image;
   std::uint64_t non_finite = 0;
