@@ -9,6 +9,9 @@
 #include <cmath>
 
 namespace qtrace::independent {
+
+bool is_file(const std::string& scene) { return scene.find('/') != std::string::npos; }
+
 namespace {
 
 constexpr int kBounces = 5;
@@ -28,6 +31,7 @@ EnvironmentMap shipped_sky() {
 }
 
 Scene load(const std::string& name) {
+  if (is_file(name)) return load_gltf(name);
   if (std::ranges::count(kRooms, name) > 0) return feature_room(name);
   if (name == "glossy") return test::glossy_room();
   Scene scene = test::shipped(name.c_str());

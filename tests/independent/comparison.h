@@ -19,6 +19,9 @@ inline constexpr std::array kScenes{"simple.glb",          "occluded.glb", "corn
                                     "glossy_room.glb",     "open_sky.glb", "sunlit_bath.glb",
                                     "lamp_in_fixture.glb", "glossy"};
 
+// Whether a scene is the path of a file, and not one of those that are known by name.
+bool is_file(const std::string& scene);
+
 // Chance that a true renderer fails one comparison.
 inline constexpr double kQuickChance = 1e-4;
 
@@ -31,6 +34,7 @@ class Comparison {
     int most_samples = 0;
     double precision = 0;
   };
+  // `scene`: of kScenes, of kRooms, or the path of a .glb, whose light from outside is none.
   Comparison(const std::string& scene, Size size);
 
   int samples() const { return samples_; }  // of the independent tracer, per pixel

@@ -22,12 +22,13 @@ was reached. "agrees": χ² per pixel within 0.9 to 1.1, the mean within three s
 within what chance makes of true ones but once in 10,000 comparisons; where the mean is known to less than 0.1 %, to what.
 The methods of a scene share the independent tracer's image. Left out are door_ajar without next event estimation, where
 chance finds the lamp too rarely to tell anything, and glossy_room with the uniform sampler, whose directions miss its
-narrow lobes. `./dev independent` makes it again, `./dev independent SCENE` one scene.
+narrow lobes. `./dev independent` makes it again, `./dev independent SCENE` one scene. Of a file of one's own, which
+`./dev independent FILE.glb` compares, the methods are those with next event estimation by one ray, without `uniform`.
 """
 
 
 class Table:
-    """Rows of `file`, in the order of SCENES. Throws ValueError where the file is not such a table."""
+    """Rows of `file`, in the order of SCENES, and then those of other files. Throws ValueError where the file is not such a table."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
@@ -37,7 +38,7 @@ class Table:
             return
         lines = file.read_text(encoding="utf-8").splitlines()
         rows = [self._cells(line) for line in lines if line.startswith("| ")]
-        if not rows or rows[0] != COLUMNS or any(len(row) != len(COLUMNS) or row[0] not in SCENES for row in rows[1:]):
+        if not rows or rows[0] != COLUMNS or any(len(row) != len(COLUMNS) for row in rows[1:]):
             raise ValueError(f"{file} is not a table of this comparison; move it away")
         self._rows = rows[1:]
         self._device = next((line.removeprefix(DEVICE).rstrip(".") for line in lines if line.startswith(DEVICE)), "")
@@ -62,7 +63,8 @@ class Table:
         if len(row) != len(COLUMNS):
             raise ValueError(f"the row has {len(row) - 1} cells, not {len(COLUMNS) - 1}: {line}")
         self._rows.append(row)
-        self._rows.sort(key=lambda r: SCENES.index(r[0]))  # stable: methods stay in their order
+        # Stable: methods stay in their order.
+        self._rows.sort(key=lambda r: (SCENES.index(r[0]), "") if r[0] in SCENES else (len(SCENES), r[0]))
         self._write()
 
     @staticmethod

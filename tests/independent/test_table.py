@@ -71,6 +71,19 @@ class TableTest(unittest.TestCase):
         self.assertIn("was measured on a card, but this is another card; move it away", done.stderr)
         self.assertEqual(self.text(), before)
 
+    def test_a_file_comes_after_the_shipped_scenes(self) -> None:
+        (self.folder / "attic.glb").touch()
+        self.assertEqual(self.run_it(str(self.folder / "attic.glb"), "glossy").returncode, 0)
+        self.assertEqual([r[0] for r in self.rows()], ["glossy", "glossy", "attic", "attic"])
+        self.run_it("simple")
+        self.assertEqual([r[0] for r in self.rows()], ["simple", "simple", "glossy", "glossy", "attic", "attic"])
+
+    def test_a_file_with_the_name_of_a_shipped_scene_is_refused(self) -> None:
+        (self.folder / "simple.glb").touch()
+        done = self.run_it(str(self.folder / "simple.glb"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has the name of a shipped scene; another name would be right", done.stderr)
+
     def test_scenes_are_those_of_the_comparison(self) -> None:
         listed = re.search(r"kScenes\{(.*?)\}", (HERE / "comparison.h").read_text(), re.DOTALL)
         self.assertEqual([name.split(".")[0] for name in re.findall(r'"(.*?)"', listed[1])], SCENES)
