@@ -38,7 +38,7 @@ def read_obj(path: Path, flip_v: bool) -> Mesh:
     values = {kind: np.concatenate(rows) for kind, rows in lists.items()}
     if flip_v:
         values["vt"][:, 1] = 1 - values["vt"][:, 1]
-    return finished(path, _unified(values, corners, fans(sizes), path.stem))
+    return finished(path, _unified(values, corners, fans(sizes), path.name.split(".")[0]))
 
 
 def _rows(block: Block, kind: str, width: int) -> np.ndarray:
@@ -77,7 +77,8 @@ def _faces(block: Block, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         corners = np.where(is_relative, corners + known + 1, corners)
         wrong = (is_relative & (corners < 1)).any(axis=1)
         if wrong.any():
-            raise block.problem(indices.line_of_token(int(np.argmax(wrong))), "a negative index points before the first of its kind")
+            line = indices.line_of_token(int(np.argmax(wrong)))
+            raise block.problem(line, "a negative index points before the first of its kind")
     return corners, indices.per_line
 
 

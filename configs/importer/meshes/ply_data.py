@@ -114,10 +114,10 @@ class Body:
         raw = self._data[at:at + size]
         if len(raw) < size:
             raise self._truncated(element)
-        n = int(raw[0]) if size == 1 and prop.count_kind != "i1" else int(self._view(raw[None], prop.count_kind)[0, 0])
-        if not 0 <= n <= len(self._data):
+        n = raw[0] if size == 1 and prop.count_kind != "i1" else self._view(raw[None], prop.count_kind)[0, 0]
+        if not 0 <= n <= len(self._data):  # also where it is NaN
             raise ImportProblem(f"{self._path}: an element '{element.name}' of the .ply has a list of {n} values")
-        return n
+        return int(n)
 
     def _size(self, kind: str) -> int:
         """Bytes of a value; of text, one number."""

@@ -43,7 +43,7 @@ class Header:
 
 
 def read_header(path: Path, data: bytes) -> Header:
-    if data[:3] not in (b"ply",) or data[3:4] not in (b"\n", b"\r", b" "):
+    if data[:3] != b"ply" or data[3:4] not in (b"\n", b"\r", b" "):
         raise ImportProblem(f"{path}: the file is not a .ply, which begins with a line 'ply'")
     end = data.find(b"end_header", 0, _LONGEST)
     if end < 0:
@@ -70,6 +70,8 @@ def _read_line(words: list[str], elements: list[Element], order: str | None) -> 
             if int(count) < 0:
                 raise ValueError("a count is 0 or more")
             elements.append(Element(name, int(count)))
+        case ["property", *_, name] if elements and any(p.name == name for p in elements[-1].properties):
+            raise ValueError("an element has each property once")
         case ["property", "list", count_kind, kind, name] if elements:
             if _known(_TYPES, count_kind)[0] == "f":
                 raise ValueError("the length of a list is a whole number")

@@ -21,13 +21,14 @@ from importer.scene import Mesh
 _MAGIC = 0x041C
 _NORMALS, _UVS, _COLOURS, _FACE_NORMALS, _DOUBLE = 0x0001, 0x0002, 0x0008, 0x0010, 0x2000
 _LONGEST_NAME = 4096
+_PIECE = 1 << 16  # inflated at least at a time, for each call copies what is left
 
 
 def read_serialized(path: Path, index: int) -> Mesh:
     """The mesh of this number, from 0 on. Where its flags ask for face normals, each triangle has its own in `normals`."""
     data = read_bytes(path)
     start, version = _start(path, data, index)
-    stream = _Stream(path, data[start + 4:], index)
+    stream = _Stream(path, memoryview(data)[start + 4:], index)
     (flags,) = stream.unpack("<I")
     name = stream.name() if version >= 4 else ""
     vertices, triangles = stream.unpack("<QQ")
@@ -75,24 +76,27 @@ def _header(path: Path, data: bytes, start: int) -> tuple[int, int]:
 class _Stream:
     """A zlib stream, inflated as far as asked for."""
 
-    def __init__(self, path: Path, packed: bytes, index: int) -> None:
+    def __init__(self, path: Path, packed: memoryview, index: int) -> None:
         self._path, self._index, self._packed = path, index, packed
         self._inflate = zlib.decompressobj()
+        self._ready = b""  # inflated and not asked for yet
         self._most = 1100 * len(packed)  # what zlib can make of it: 258 bytes of 2 bits (RFC 1951)
 
     def _read(self, size: int) -> bytes:
-        parts = []
-        while size > 0:
+        parts, left = [self._ready], size - len(self._ready)
+        while left > 0:
             try:
-                part = self._inflate.decompress(self._packed, size)
+                part = self._inflate.decompress(self._packed, max(left, _PIECE))
             except zlib.error as error:
                 raise ImportProblem(f"{self._path}: mesh {self._index} is damaged: {error}") from error
             self._packed = self._inflate.unconsumed_tail
             if not part:
                 raise ImportProblem(f"{self._path}: mesh {self._index} is truncated")
             parts.append(part)
-            size -= len(part)
-        return b"".join(parts)
+            left -= len(part)
+        found = b"".join(parts)
+        self._ready = found[size:]
+        return found[:size]
 
     def unpack(self, form: str) -> tuple[int, ...]:
         return struct.unpack(form, self._read(struct.calcsize(form)))
