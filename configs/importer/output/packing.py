@@ -1,0 +1,80 @@
+"""Numbers that vary over a surface, in the channels where glTF has them: roughness in G, transmission and clearcoat in R,
+strength of the dielectric lobe in A of a texture of their own; opacity in A of the base colour's."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Callable
+
+import numpy as np
+
+from importer.images import bake
+from importer.output.pixels import linear_rgb
+from importer.problems import Notes
+from importer.scene import WHITE, Image, Texture
+
+Layout = Callable[[np.ndarray], np.ndarray]  # of (height, width) numbers: (height, width, 3 or 4)
+
+
+def in_green(numbers: np.ndarray) -> np.ndarray:
+    """Red and blue are 1: blue is multiplied with `metallicFactor`."""
+    ones = np.ones_like(numbers)
+    return np.stack([ones, numbers, ones], axis=2)
+
+
+def in_all(numbers: np.ndarray) -> np.ndarray:
+    return np.repeat(numbers[..., None], 3, axis=2)
+
+
+def in_alpha(numbers: np.ndarray) -> np.ndarray:
+    """Under white, which is 1 in sRGB and as a number."""
+    ones = np.ones_like(numbers)
+    return np.stack([ones, ones, ones, numbers], axis=2)
+
+
+def texel_numbers(texture: Texture) -> np.ndarray:
+    """(height, width): the mean of R, G and B with the texture's scale, as scene.py has it."""
+    return linear_rgb(texture.image) @ (np.asarray(texture.scale, float) / 3)
+
+
+@dataclass
+class Packer:
+    """Keeps what it has made, so that materials that share a texture share the packed one."""
+
+    notes: Notes
+    _made: dict[tuple, Image] = field(default_factory=dict)
+    _kept: list[Image] = field(default_factory=list)  # so that no other image gets the identity of one that is known
+
+    def numbers(self, texture: Texture, layout: Layout, where: str) -> Texture:
+        """With a scale of 1."""
+        return self._with(texture, (layout.__name__, texture.scale),
+                          lambda: layout(self._clipped(texel_numbers(texture), where)))
+
+    def colours(self, texture: Texture, where: str) -> Texture:
+        """With no scale above 1, which a factor of a colour cannot be."""
+        if max(texture.scale) <= 1:
+            return texture
+        scale = np.asarray(texture.scale, float)
+        return self._with(texture, ("colours", texture.scale),
+                          lambda: self._clipped(linear_rgb(texture.image) * scale, where))
+
+    def colours_and_opacity(self, colours: Texture, opacity: Texture, where: str) -> Texture:
+        """Both in one image, mapped as `bake.combined` chooses."""
+        def join(rgb: np.ndarray, numbers: np.ndarray) -> np.ndarray:
+            return np.concatenate([rgb[..., :3], numbers.mean(axis=2, keepdims=True)], axis=2)
+
+        coverage = self.numbers(opacity, in_all, where)
+        return bake.combined(self.colours(colours, where), coverage, join)
+
+    def _with(self, texture: Texture, key: tuple, make: Callable[[], np.ndarray]) -> Texture:
+        key = (id(texture.image), *key)
+        if key not in self._made:
+            self._kept.append(texture.image)
+            self._made[key] = Image(texture.image.name, make())
+        return dataclasses.replace(texture, image=self._made[key], scale=WHITE)
+
+    def _clipped(self, values: np.ndarray, where: str) -> np.ndarray:
+        if values.max() > 1 + 1e-6:
+            self.notes.approximated("texels above 1 as 1", where)
+        return np.clip(values, 0, 1)
