@@ -59,16 +59,13 @@ class _Writer:
         if not np.isfinite(part.to_world).all():
             raise ImportProblem(f"{where}: its transform holds no finite numbers; finite ones would be right")
         to_world = self.world.place(np.asarray(part.to_world, float))
-        node: dict[str, Any] = {"name": part.name}
         mesh = part.mesh
         if not is_translation_rotation_scale(to_world):
             mesh, to_world = transformed(mesh, to_world), np.eye(4)
         index = self._mesh(part, mesh, where)
         if index is None:
             return
-        if not np.array_equal(to_world, np.eye(4)):
-            node["matrix"] = matrix_json(to_world)
-        self.nodes.append({**node, "mesh": index})
+        self.nodes.append({"name": part.name, **matrix_json(to_world), "mesh": index})
         self._count(index, to_world)
 
     def _mesh(self, part: Part, mesh: Mesh, where: str) -> int | None:

@@ -162,12 +162,13 @@ class _Writer:
             said["normalTexture"] = self._normal_info()
         if isinstance(material.opacity, Texture) or material.opacity < 1:
             said["alphaMode"] = "BLEND"
-        # What does not emit scatters on both sides here anyway, and viewers shall show both.
-        if material.emits_both_sides or "emissiveFactor" not in said:
-            said["doubleSided"] = True
         self.add_dielectric()
         self.add_transmission()
         self.add_coat()
+        # What does not emit scatters on both sides here anyway, and viewers shall show both, but of volumes.
+        is_open = "emissiveFactor" not in said and "KHR_materials_volume" not in self.extensions
+        if material.emits_both_sides or is_open:
+            said["doubleSided"] = True
         return {**said, "extensions": self.extensions} if self.extensions else said
 
 

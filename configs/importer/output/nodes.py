@@ -15,9 +15,11 @@ _MOST_INTENSITY = 1e12  # of the reader (engine/gltf/light.cpp)
 _SHARP = 0.999  # of the outer cone: where a source has a sharp edge, glTF wants the inner cone to be smaller
 
 
-def matrix_json(matrix: np.ndarray) -> list[float]:
-    """Column by column, as glTF has it."""
-    return [float(x) + 0.0 for x in matrix.T.ravel()]
+def matrix_json(matrix: np.ndarray) -> dict[str, list[float]]:
+    """A node's property, column by column; none where it is the default."""
+    if np.array_equal(matrix, np.eye(4)):
+        return {}
+    return {"matrix": [float(x) + 0.0 for x in matrix.T.ravel()]}
 
 
 def _frame(back: np.ndarray, up: np.ndarray) -> np.ndarray:
@@ -52,7 +54,7 @@ def camera_json(camera: Camera, world: World, corners: np.ndarray) -> tuple[dict
     frame[:3, :3] = _frame(to_world[:3, 2], to_world[:3, 1])
     frame[:3, 3] = to_world[:3, 3]
     far = 2 * float(np.linalg.norm(corners - frame[:3, 3], axis=1).max()) if len(corners) else 1.0
-    return {"name": "camera", **_lens(camera, far or 1.0)}, {"name": "camera", "matrix": matrix_json(frame), "camera": 0}
+    return {"name": "camera", **_lens(camera, far or 1.0)}, {"name": "camera", **matrix_json(frame), "camera": 0}
 
 
 def _vector(light: Light, what: str, values: Sequence[float]) -> np.ndarray:
@@ -72,7 +74,7 @@ def _node(light: Light, world: World, index: int) -> dict[str, Any]:
         if not back.any():
             raise ImportProblem(f"light {light.name}: its direction is (0, 0, 0); one with a length would be right")
         matrix[:3, :3] = _frame(back, np.eye(3)[int(np.argmin(np.abs(back)))])
-    return {**node, "matrix": matrix_json(matrix)}
+    return {**node, **matrix_json(matrix)}
 
 
 def lights_json(lights: Sequence[Light], world: World) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
