@@ -1,0 +1,110 @@
+"""Coats over other materials: KHR_materials_clearcoat, a layer of index 1.5 that takes its share by the viewer's angle and
+lets the rest through once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from importer.materials import fresnel, limits, metals, parameters
+from importer.materials.conductors import worst_of_curve
+from importer.materials.roughness import mitsuba_roughness
+from importer.problems import ImportProblem, Notes
+from importer.scene import Colour, Material, Number, Rgb
+
+_COAT_F0 = 0.04  # of KHR_materials_clearcoat
+
+
+def _factor(eta: float, specular: float, notes: Notes, where: str) -> float:
+    """The coat's strength at which it reflects straight on what a coat of this index does."""
+    limits.checked_number(float(eta), "the index of a coat", where, least=1.0)
+    factor = fresnel.f0_of_index(eta) / _COAT_F0 * specular
+    if abs(eta - 1.5) > 1e-6:
+        notes.approximated("a coat of another index than 1.5 as one of 1.5 with a factor that straight on makes it reflect "
+                           "as much" + (", as far as a factor of 1 goes" if factor > 1.0 else ""), where)
+    return min(factor, 1.0)
+
+
+def _with_coat(material: Material, factor: float, alpha: Number, notes: Notes, where: str) -> Material:
+    if isinstance(alpha, parameters.Texture):
+        notes.approximated("a coat's roughness that varies as its mean", where)
+    alpha = parameters.mean_number(limits.checked_number(alpha, "alpha of a coat", where))
+    if not parameters.is_constant(material.clearcoat, 0.0):
+        notes.approximated("a coat over a coat as the outer one alone", where)
+    if alpha >= 1e-4:
+        notes.approximated("a rough coat: what it passes goes on as through a smooth one", where)
+    return replace(material, clearcoat=factor, clearcoat_roughness=float(mitsuba_roughness(alpha)))  # type: ignore[arg-type]
+
+
+def _dimmed(material: Material, factor: Rgb) -> Material:
+    """Base colour and dielectric lobe times a factor; at most what glTF allows."""
+    base = parameters.map_colour(material.base_colour, lambda c: np.minimum(c * np.array(factor), 1.0)) \
+        if parameters.greatest(parameters.scaled(material.base_colour, factor)) > 1.0 \
+        else parameters.scaled(material.base_colour, factor)
+    return replace(material, base_colour=base, specular_colour=parameters.scaled(material.specular_colour, factor))
+
+
+def _is_lambert(material: Material) -> bool:
+    return material.metallic == 0.0 and all(parameters.is_constant(n, 0.0) for n in (material.specular, material.transmission))
+
+
+def _absorbed(sigma_a: Rgb, thickness: float, eta: float, is_diffuse: bool, notes: Notes, where: str) -> Rgb:
+    """What a coat leaves of light on its way down and up: straight on over a glossy surface, and over a diffuse one the
+    mean over the directions that it has inside, of light from the whole hemisphere."""
+    tau = [max(float(a), 0.0) * thickness for a in sigma_a]
+    if max(tau) == 0.0:
+        return (1.0, 1.0, 1.0)
+    notes.approximated("a coat that absorbs: by the same factor at all angles", where)
+    if not is_diffuse:
+        red, green, blue = (math.exp(-2.0 * t) for t in tau)
+        return red, green, blue
+    inside = np.sqrt(1.0 - (1.0 - fresnel.COSINES ** 2) / eta ** 2)
+    red, green, blue = (float(fresnel.COSINE_WEIGHTS @ np.exp(-t / inside)) ** 2 for t in tau)
+    return red, green, blue
+
+
+def coated(material: Material, ior: float, alpha: Number, specular: Colour, thickness: float, sigma_a: Rgb, notes: Notes,
+           where: str) -> Material:
+    """Mitsuba's coating and roughcoating of another material; `ior`: inside over outside.
+
+    Over a diffuse surface Mitsuba's coat passes T(v) T(l) / eta^2 of its lobe (SmoothCoating::eval), 0.37 in all at an
+    index of 1.5, since it leaves out what is reflected inside; glTF's passes 1 - F. The base colour takes the rest, so that
+    as much diffuse light leaves in all. Over a glossy one it passes T twice, and glTF's once."""
+    specular = limits.reflectance(specular, "the specular reflectance of a coat", notes, where)
+    if not parameters.is_grey(specular) or isinstance(specular, parameters.Texture):
+        notes.approximated("a coat's factor that has a colour or varies as its mean", where)
+    factor = _factor(ior, float(np.mean(parameters.mean_rgb(specular))), notes, where)
+    if _is_lambert(material):
+        kept = (1.0 - fresnel.average(ior)) ** 2 / ior ** 2 / (1.0 - factor * fresnel.schlick_average(_COAT_F0))
+    else:
+        kept = (1.0 - fresnel.f0_of_index(ior)) ** 2 / (1.0 - factor * _COAT_F0)
+    absorbed = _absorbed(sigma_a, float(limits.checked_number(thickness, "the thickness of a coat", where)), ior,
+                         _is_lambert(material), notes, where)
+    red, green, blue = (kept * a for a in absorbed)
+    return _with_coat(_dimmed(material, (red, green, blue)), factor, alpha, notes, where)
+
+
+def coated_conductor(name: str, coat_eta: float, coat_alpha: Number, thickness: float, albedo: Colour, eta: Rgb, k: Rgb,
+                     alpha: Number, notes: Notes, where: str) -> Material:
+    """pbrt-v4's coatedconductor: a metal seen within the coat, with all reflections between the two and a medium of
+    extinction 1 (LayeredBxDF). The base colour is that at which as much light comes back straight on:
+    (1 - R) a^2 Rc / (1 - R Rc a^2), with a = exp(-thickness)."""
+    if coat_eta <= 1.0:
+        raise ImportProblem(f"{where}: the index of a coat is {coat_eta:g}; above 1 would be right")
+    if parameters.greatest(albedo) > 0.0:
+        notes.approximated("a coat that scatters as one that only absorbs", where)
+    below = tuple(n / coat_eta for n in eta), tuple(a / coat_eta for a in k)
+    metal = np.array(metals.f0(*below))  # type: ignore[arg-type]
+    worst = worst_of_curve(*below, tuple(metal))  # type: ignore[arg-type]
+    if worst > limits.TOLERANCE:
+        notes.approximated("a coated conductor's Fresnel reflectance by Schlick's curve, which within the coat is off by "
+                           f"{limits.bound(worst)} at most", where)
+    r, a2 = fresnel.f0_of_index(coat_eta), math.exp(-2.0 * float(limits.checked_number(thickness, "thickness", where)))
+    factor = _factor(coat_eta, 1.0, notes, where)
+    red, green, blue = (1.0 - r) ** 2 * a2 * metal / (1.0 - r * metal * a2) / (1.0 - factor * _COAT_F0)
+    base = Material(name, base_colour=(min(red, 1.0), min(green, 1.0), min(blue, 1.0)), metallic=1.0,
+                    roughness=mitsuba_roughness(limits.checked_number(alpha, "alpha", where)))
+    return _with_coat(base, factor, coat_alpha, notes, where)
+

@@ -1,0 +1,47 @@
+"""What glTF allows of parameters, and how errors are said so that materials of one kind share a note."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from importer.materials import parameters
+from importer.problems import ImportProblem, Notes
+from importer.scene import Colour, Number
+
+TOLERANCE = 0.02  # of reflectance: below it a curve counts as the same
+_BOUNDS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0)
+
+
+def bound(error: float) -> str:
+    """The least of a few round numbers that the error does not pass."""
+    return f"{next((b for b in _BOUNDS if error <= b), error):g}"
+
+
+def checked_number(value: Number, what: str, where: str, least: float = 0.0, most: float = np.inf) -> Number:
+    """Refuses numbers without meaning; of textures the texels are looked at."""
+    values = parameters.texels(value) if isinstance(value, parameters.Texture) else np.array(value, dtype=float)
+    if not np.isfinite(values).all() or float(values.min()) < least or float(values.max()) > most:
+        bad = values[~np.isfinite(values) | (values < least) | (values > most)].ravel()[0]
+        span = f"from {least:g} to {most:g}" if np.isfinite(most) else f"of {least:g} or more"
+        raise ImportProblem(f"{where}: {what} is {bad:g}; a number {span} would be right")
+    return value
+
+
+def reflectance(colour: Colour, what: str, notes: Notes, where: str) -> Colour:
+    """A colour of [0, 1]: both renderers clamp what is above, and say that what is below 0 has no meaning."""
+    values = parameters.texels(colour) if isinstance(colour, parameters.Texture) else np.array(colour, dtype=float)
+    if not np.isfinite(values).all() or float(values.min()) < 0.0:
+        raise ImportProblem(f"{where}: {what} has a channel that is negative or no number; 0 to 1 would be right")
+    if float(values.max()) <= 1.0 + 1e-9:
+        return colour
+    notes.approximated("reflectances above 1 as 1", where)
+    return parameters.map_colour(colour, lambda rgb: np.minimum(rgb, 1.0), "at most 1")
+
+
+def opacity(number: Number, notes: Notes, where: str) -> Number:
+    """Of [0, 1]."""
+    checked_number(number, "an opacity", where)
+    if parameters.greatest(parameters.colour_of_number(number)) <= 1.0 + 1e-9:
+        return number
+    notes.approximated("opacities above 1 as 1", where)
+    return parameters.map_number(number, lambda x: np.minimum(x, 1.0), "at most 1")
