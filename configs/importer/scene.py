@@ -138,3 +138,4 @@ class Scene:
     lights: list[Light] = field(default_factory=list)
     sky: Sky = field(default_factory=Sky)
     max_bounces: int | None = None  # None: the source sets no limit
+    source_version: str = ""  # of the format, as "0.6.0" or "4"
