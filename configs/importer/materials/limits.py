@@ -9,7 +9,7 @@ from importer.problems import ImportProblem, Notes
 from importer.scene import Colour, Number
 
 TOLERANCE = 0.02  # of reflectance: below it a curve counts as the same
-_BOUNDS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0)
+_BOUNDS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
 
 
 def bound(error: float) -> str:

@@ -16,8 +16,10 @@ _GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(16)
 COSINES = 0.5 * (_GAUSS + 1.0)
 WEIGHTS = _GAUSS_WEIGHTS * COSINES
 _STEPS = 32
-# Where errors are looked for: from straight on to 85 degrees.
-VIEWS = np.cos(np.radians(np.array((0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 75.0, 80.0, 85.0))))
+SMOOTH = 1e-4  # an alpha below which a surface counts as smooth
+# Where errors are looked for: up to 60 degrees from the normal and up to 85.
+STEEP_VIEWS = np.cos(np.radians(np.array((0.0, 15.0, 30.0, 45.0, 60.0))))
+FLAT_VIEWS = np.cos(np.radians(np.array((70.0, 75.0, 80.0, 85.0))))
 
 
 def mean(values: np.ndarray) -> float:
@@ -25,18 +27,13 @@ def mean(values: np.ndarray) -> float:
     return float(WEIGHTS @ values)
 
 
-def gloss(cosines: np.ndarray, alpha: float, reflectance: Curve) -> np.ndarray:
-    """Directional reflectance of GGX's microfacets with height-correlated masking and shadowing (glTF 2.0, appendix B),
-    by the distribution of visible normals (Heitz 2018) on a regular grid: the mean of F(v.h) G2/G1."""
-    cosines = np.asarray(cosines, dtype=float)
-    if alpha < 1e-4:
-        return reflectance(cosines)
+def _visible_normals(cosines: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray]:
+    """v.h and the cosine of h for views in rows: the distribution of visible normals of GGX (Heitz 2018) on a regular grid,
+    v being in the plane of x and z."""
     u1, u2 = (g.ravel() for g in np.meshgrid(*2 * [(np.arange(_STEPS) + 0.5) / _STEPS]))
-    sines = np.sqrt(np.maximum(1.0 - cosines ** 2, 0.0))
-    stretched = np.stack([alpha * sines, np.zeros_like(sines), cosines], axis=1)
-    stretched /= np.linalg.norm(stretched, axis=1, keepdims=True)
-    vx, vz = stretched[:, :1], stretched[:, 2:]
-    # A disc seen from the view: t1 across it, t2 towards the normal; v lies in the plane of x and z.
+    sines = np.sqrt(np.maximum(1.0 - cosines ** 2, 0.0))[:, None]
+    stretched = np.concatenate([alpha * sines, cosines[:, None]], axis=1)
+    vx, vz = np.split(stretched / np.linalg.norm(stretched, axis=1, keepdims=True), 2, axis=1)
     radius, angle = np.sqrt(u1)[None], 2.0 * np.pi * u2[None]
     p1 = radius * np.cos(angle)
     up = 0.5 * (1.0 + vz)
@@ -44,18 +41,44 @@ def gloss(cosines: np.ndarray, alpha: float, reflectance: Curve) -> np.ndarray:
     p3 = np.sqrt(np.maximum(1.0 - p1 ** 2 - p2 ** 2, 0.0))
     hx, hy, hz = alpha * (-vz * p2 + vx * p3), alpha * p1, np.maximum(vx * p2 + vz * p3, 1e-9)
     length = np.sqrt(hx ** 2 + hy ** 2 + hz ** 2)
-    v_h = (sines[:, None] * hx + cosines[:, None] * hz) / length
-    light = 2.0 * v_h * hz / length - cosines[:, None]
-    passed = _masking(light, alpha, cosines[:, None])
-    return np.where(light > 0.0, reflectance(np.clip(v_h, 0.0, 1.0)) * passed, 0.0).mean(axis=1)
+    return (sines * hx + cosines[:, None] * hz) / length, hz / length
 
 
-def _masking(light: np.ndarray, alpha: float, view: np.ndarray) -> np.ndarray:
-    """G2 over G1 of the view: (1 + lambda_v) / (1 + lambda_v + lambda_l)."""
-    def lamb(cosine: np.ndarray) -> np.ndarray:
-        tangent2 = 1.0 / np.maximum(cosine, 1e-6) ** 2 - 1.0
-        return 0.5 * (np.sqrt(1.0 + alpha ** 2 * tangent2) - 1.0)
-    return (1.0 + lamb(view)) / (1.0 + lamb(view) + lamb(light))
+def _lambda(cosines: np.ndarray, alpha: float) -> np.ndarray:
+    """Smith's auxiliary function of GGX."""
+    tangent2 = 1.0 / np.maximum(np.abs(cosines), 1e-6) ** 2 - 1.0
+    return 0.5 * (np.sqrt(1.0 + alpha ** 2 * tangent2) - 1.0)
+
+
+def _unmasked(light: np.ndarray, views: np.ndarray, alpha: float, is_separable: bool) -> np.ndarray:
+    """G2 over the view's G1, which the visible normals have in them already: G2 height-correlated, as glTF and pbrt have
+    it, or the product of both G1, as Mitsuba has it."""
+    to_light, to_view = _lambda(light, alpha), _lambda(views, alpha)
+    return 1.0 / (1.0 + to_light) if is_separable else (1.0 + to_view) / (1.0 + to_view + to_light)
+
+
+def gloss(cosines: np.ndarray, alpha: float, reflectance: Curve, is_separable: bool = False) -> np.ndarray:
+    """Directional reflectance of GGX's microfacets (glTF 2.0, appendix B), once scattered: the mean of F(v.h) G2/G1 over
+    visible normals."""
+    cosines = np.asarray(cosines, dtype=float)
+    if alpha < SMOOTH:
+        return reflectance(cosines)
+    v_h, h_z = _visible_normals(cosines, alpha)
+    light = 2.0 * v_h * h_z - cosines[:, None]
+    unmasked = _unmasked(light, cosines[:, None], alpha, is_separable)
+    return np.where(light > 0.0, reflectance(np.clip(v_h, 0.0, 1.0)) * unmasked, 0.0).mean(axis=1)
+
+
+def passed(cosines: np.ndarray, alpha: float, eta: float, is_separable: bool = False) -> np.ndarray:
+    """Directional transmittance of the same surface, refracted at each microfacet (Walter et al. 2007), to an index eta."""
+    cosines = np.asarray(cosines, dtype=float)
+    if alpha < SMOOTH:
+        return 1.0 - fresnel.dielectric(cosines, eta)
+    v_h, h_z = _visible_normals(cosines, alpha)
+    refracted = np.sqrt(np.maximum(1.0 - (1.0 - v_h ** 2) / eta ** 2, 0.0))
+    light = (v_h / eta - refracted) * h_z - cosines[:, None] / eta  # below the surface: negative
+    unmasked = _unmasked(light, cosines[:, None], alpha, is_separable)
+    return np.where(light < 0.0, (1.0 - fresnel.dielectric(v_h, eta)) * unmasked, 0.0).mean(axis=1)
 
 
 def below(cosines: np.ndarray, f0: float, f90: float) -> np.ndarray:
@@ -75,13 +98,20 @@ def below_in_all(f0: float, f90: float) -> float:
     return mean(below(COSINES, f0, f90))
 
 
-def dielectric_gloss(cosines: np.ndarray, alpha: float, eta: float) -> np.ndarray:
-    return gloss(cosines, alpha, lambda c: fresnel.dielectric(c, eta))
+def dielectric_gloss(cosines: np.ndarray, alpha: float, eta: float, is_separable: bool = False) -> np.ndarray:
+    return gloss(cosines, alpha, lambda c: fresnel.dielectric(c, eta), is_separable)
 
 
 @functools.lru_cache(maxsize=1024)
-def dielectric_in_all(alpha: float, eta: float) -> float:
-    """The exact average of smooth surfaces, quadrature of rough ones."""
-    if alpha < 1e-4:
+def dielectric_in_all(alpha: float, eta: float, is_separable: bool = False) -> float:
+    """Reflected by the surface; by many nodes, since there is a kink at the critical angle."""
+    if alpha < SMOOTH:
         return fresnel.average(eta)
-    return mean(dielectric_gloss(COSINES, alpha, eta))
+    return float(fresnel.COSINE_WEIGHTS @ dielectric_gloss(fresnel.COSINES, alpha, eta, is_separable))
+
+
+@functools.lru_cache(maxsize=1024)
+def passed_in_all(alpha: float, eta: float, is_separable: bool = False) -> float:
+    if alpha < SMOOTH:
+        return 1.0 - fresnel.average(eta)
+    return float(fresnel.COSINE_WEIGHTS @ passed(fresnel.COSINES, alpha, eta, is_separable))

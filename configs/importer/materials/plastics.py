@@ -4,6 +4,7 @@ white sky above it; what Schlick's curve lacks of Fresnel's, 0.006 of all light 
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Callable
 
@@ -65,44 +66,40 @@ def _note_angles(reflectance: Colour, base: Colour, f0: float, strength: float, 
                  where: str) -> None:
     """Compares both in a white sky at single angles, for the brightest channel of the mean reflectance."""
     rho, colour = max(parameters.mean_rgb(reflectance)), max(parameters.mean_rgb(base))
-    views = lobes.VIEWS
-    theirs = strength * source.gloss_at(views) + source.diffuse_at(views, rho)
-    ours = (lobes.gloss(views, alpha, lambda c: fresnel.schlick(c, f0 * strength, strength))
-            + colour * lobes.below(views, f0 * strength, strength))
-    worst = float(np.abs(theirs - ours).max())
-    if worst > limits.TOLERANCE:
-        angle = "80 degrees and more" if np.abs(theirs - ours)[:-2].max() <= limits.TOLERANCE else "single angles"
-        notes.approximated("a dielectric over a diffuse surface as glTF's, which sends as much light in all; at "
-                           f"{angle} it is off by {limits.bound(worst)} of reflectance at most", where)
 
+    def worst(views: np.ndarray) -> float:
+        theirs = strength * source.gloss_at(views) + source.diffuse_at(views, rho)
+        ours = (lobes.gloss(views, alpha, lambda c: fresnel.schlick(c, f0 * strength, strength))
+                + colour * lobes.below(views, f0 * strength, strength))
+        return float(np.abs(theirs - ours).max())
 
-def _interface(eta: float, alpha: float) -> tuple[Map, Map, float, float]:
-    """Of the dielectric surface: directional gloss and what passes, what passes in all, and what is reflected inside."""
-    def gloss_at(cosines: np.ndarray) -> np.ndarray:
-        return lobes.dielectric_gloss(cosines, alpha, eta)
-
-    def passes(cosines: np.ndarray) -> np.ndarray:
-        return 1.0 - gloss_at(cosines)
-
-    return gloss_at, passes, 1.0 - lobes.dielectric_in_all(alpha, eta), lobes.dielectric_in_all(alpha, 1.0 / eta)
+    steep, flat = worst(lobes.STEEP_VIEWS), worst(lobes.FLAT_VIEWS)
+    if max(steep, flat) > limits.TOLERANCE:
+        notes.approximated("a dielectric over a diffuse surface as glTF's, which sends as much diffuse light in all; seen up "
+                           f"to 60 degrees from the normal it is off by {limits.bound(steep)} of reflectance at most, up to 85 "
+                           f"by {limits.bound(flat)}", where)
 
 
 def plastic(name: str, diffuse: Colour, ior: float, alpha: Number, specular: Colour, is_nonlinear: bool, notes: Notes,
-            where: str) -> Material:
+            where: str, version: int = 3) -> Material:
     """Mitsuba's plastic and roughplastic; `ior`: inside over outside. Their diffuse lobe is
-    T(v) T(l) rho / (pi eta^2 (1 - F_i)), with rho F_i for F_i where they are nonlinear."""
+    T(v) T(l) rho / (pi eta^2 (1 - F)), with rho F for F where they are nonlinear. F is what the surface reflects inside: in
+    version 3 once scattered at its microfacets (eval_reflectance), before it all that does not pass (evalDiffuse of the
+    rough transmittance)."""
     eta = _checked_index(ior, where)
     diffuse = limits.reflectance(diffuse, "the diffuse reflectance", notes, where)
     specular = limits.reflectance(specular, "the specular reflectance", notes, where)
     mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
-    gloss_at, passes, passes_in_all, inside = _interface(eta, mean_alpha)
+    in_all = lobes.passed_in_all(mean_alpha, eta, True)
+    inside = lobes.dielectric_in_all(mean_alpha, 1.0 / eta, True) if version >= 3 else 1.0 - in_all / eta ** 2
 
     def below(rho: np.ndarray) -> np.ndarray:
         return rho / (eta ** 2 * (1.0 - (rho * inside if is_nonlinear else inside)))
 
-    source = Source(lambda rho: passes_in_all ** 2 * below(rho),
-                    lambda cosines, rho: passes(cosines) * passes_in_all * below(np.array(rho)), gloss_at,
-                    ("plastic", eta, mean_alpha, is_nonlinear), is_proportional=not is_nonlinear)
+    source = Source(lambda rho: in_all ** 2 * below(rho),
+                    lambda cosines, rho: lobes.passed(cosines, mean_alpha, eta, True) * in_all * below(np.array(rho)),
+                    lambda cosines: lobes.dielectric_gloss(cosines, mean_alpha, eta, True),
+                    ("plastic", eta, mean_alpha, is_nonlinear, version), is_proportional=not is_nonlinear)
     return dielectric_over(name, diffuse, fresnel.f0_of_index(eta), specular, alpha, source, notes, where)
 
 
@@ -116,33 +113,31 @@ def coated_diffuse(name: str, reflectance: Colour, eta: float, alpha: Number, th
     mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
     if parameters.greatest(albedo) > 0.0:
         notes.approximated("a coat that scatters as one that only absorbs", where)
-    gloss_at, passes, _, _ = _interface(eta, mean_alpha)
     out, back = _coat_from_below(eta, mean_alpha, thickness)
     meetings = max(1, (int(max_depth) + 1) // 2)
 
     def through(cosines: np.ndarray) -> np.ndarray:
         below = np.sqrt(1.0 - (1.0 - cosines ** 2) / eta ** 2)
-        return passes(cosines) * np.exp(-thickness / below)
+        return lobes.passed(cosines, mean_alpha, eta) * np.exp(-thickness / below)
 
     into = lobes.mean(through(lobes.COSINES))
 
     def below(rho: np.ndarray) -> np.ndarray:
         return out * rho * sum((rho * back) ** n for n in range(meetings))
 
-    source = Source(lambda rho: into * below(rho), lambda cosines, rho: through(cosines) * below(np.array(rho)), gloss_at,
+    source = Source(lambda rho: into * below(rho), lambda cosines, rho: through(cosines) * below(np.array(rho)),
+                    lambda cosines: lobes.dielectric_gloss(cosines, mean_alpha, eta),
                     ("coated diffuse", eta, mean_alpha, thickness, meetings))
     return dielectric_over(name, reflectance, fresnel.f0_of_index(eta), WHITE, alpha, source, notes, where)
 
 
+@functools.lru_cache(maxsize=1024)
 def _coat_from_below(eta: float, alpha: float, thickness: float) -> tuple[float, float]:
     """Of light that leaves Lambert's surface: what comes out of the coat, and what comes back down to the surface."""
     cosines, weights = fresnel.COSINES, fresnel.COSINE_WEIGHTS
-    reflected = lobes.gloss(cosines, alpha, lambda c: fresnel.dielectric(c, 1.0 / eta))
-    if alpha >= 1e-4:
-        # What a rough surface loses to its second microfacet goes on to the outside, as 1 - reflectance has it outside.
-        reflected = np.minimum(reflected, 1.0)
     once = np.exp(-thickness / cosines)
-    return float(weights @ (once * (1.0 - reflected))), float(weights @ (once ** 2 * reflected))
+    return (float(weights @ (once * lobes.passed(cosines, alpha, 1.0 / eta))),
+            float(weights @ (once ** 2 * lobes.dielectric_gloss(cosines, alpha, 1.0 / eta))))
 
 
 def lambert_and_gloss(name: str, diffuse: Colour, specular: Colour, ior: float, alpha: Number, notes: Notes,
