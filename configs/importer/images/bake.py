@@ -1,0 +1,149 @@
+"""Textures that a file does not have: checkers, constants, and textures changed or joined texel by texel."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Callable
+
+import numpy as np
+
+from importer.images import srgb
+from importer.scene import WHITE, Colour, Image, Rgb, Texture, Wrap
+
+MAX_SIDE = 4096  # of images that are made here
+_SAME = 1e-6
+
+
+def constant(name: str, rgb: Rgb) -> Image:
+    return Image(name, np.clip(np.array(rgb, float).reshape(1, 1, 3), 0, 1))
+
+
+def checkerboard(name: str, first: Rgb, second: Rgb) -> Image:
+    """2 x 2 texels for a texture with `is_nearest`: `first` where u and v are both below or both above a half, as
+    Mitsuba's checkerboard has color0. pbrt's checkers are one unit each and the other way up: with its v turned over
+    (v' = 1 - v) and coordinates (u / 2, v' / 2 - 1 / 2) they are these, `first` being tex1."""
+    pixels = np.array([[first, second], [second, first]], float)
+    return Image(name, np.clip(pixels, 0, 1))
+
+
+def mapped(image: Image, function: Callable[[np.ndarray], np.ndarray], name: str | None = None) -> Image:
+    """The function gets and returns (height, width, 3) linear colours, of which [0, 1] is kept. Alpha stays as it is."""
+    return _with_alpha(name or image.name, np.asarray(function(srgb.linear(image)), float), image)
+
+
+def _with_alpha(name: str, colours: np.ndarray, image: Image) -> Image:
+    colours = np.clip(colours, 0, 1)
+    if image.pixels.shape[2] == 4:
+        alpha = image.pixels[..., 3:]
+        colours = np.concatenate([colours, alpha / 255 if alpha.dtype == np.uint8 else alpha], axis=2)
+    return Image(name, colours)
+
+
+def scaled(texture: Texture, rgb: Rgb) -> Texture:
+    """The same image with a larger or smaller `scale`, which may be above 1 after it; see `applied`."""
+    return replace(texture, scale=tuple(a * b for a, b in zip(texture.scale, rgb)))
+
+
+def applied(texture: Texture) -> Texture:
+    """With a scale of 1: where it was not, its texels are multiplied and clipped."""
+    if texture.scale == WHITE:
+        return texture
+    image = mapped(texture.image, lambda colours: colours * texture.scale, f"{texture.image.name}_scaled")
+    return replace(texture, image=image, scale=WHITE)
+
+
+def combined(first: Colour, second: Colour, how: Callable[[np.ndarray, np.ndarray], np.ndarray], name: str = "") -> Colour:
+    """`how` of two colours or textures, as a colour of two colours, else as a texture with a scale of 1.
+
+    `how` gets (height, width, 3) or (3,) arrays with scales in them and returns the like; of textures, [0, 1] is kept.
+    Where the textures' mappings agree, their texels meet one to one, or the larger image's with the smaller one looked
+    up between its own. Else one of them is repeated within the other's period where it fits there a whole number
+    of times; where none does, the square of u and v from 0 to 1 is baked, and what lies outside of it repeats it.
+    """
+    if not isinstance(first, Texture) and not isinstance(second, Texture):
+        return tuple(float(x) for x in how(np.array(first, float), np.array(second, float)))
+    textures = [t for t in (first, second) if isinstance(t, Texture)]
+    base = _base(textures)
+    size = _size(textures, base)
+    sources = [_sampled(c, base, size) if isinstance(c, Texture) else np.array(c, float) for c in (first, second)]
+    pixels = np.broadcast_to(np.asarray(how(*sources), float), (size[1], size[0], 3))
+    label = name or "_".join(t.image.name for t in textures)
+    return replace(base, image=Image(label, np.clip(pixels, 0, 1)), scale=WHITE,
+                   is_nearest=all(t.is_nearest for t in textures))
+
+
+def _square(matrix: np.ndarray) -> np.ndarray:
+    return np.vstack([matrix, (0, 0, 1)])
+
+
+def _from(base: Texture, texture: Texture) -> np.ndarray | None:
+    """(3, 3): the texture's image coordinates of the base's; None where the base's cannot be undone."""
+    matrix = _square(base.image_from_uv)
+    if abs(np.linalg.det(matrix)) < 1e-12:
+        return None
+    return _square(texture.image_from_uv) @ np.linalg.inv(matrix)
+
+
+def _base(textures: list[Texture]) -> Texture:
+    """The texture whose period all others fit into, or one of the identity."""
+    for base in textures:
+        if all(other is base or _fits(base, other) for other in textures):
+            return base
+    return replace(textures[0], image_from_uv=np.eye(3)[:2], wrap=(Wrap.REPEAT, Wrap.REPEAT))
+
+
+def _fits(base: Texture, texture: Texture) -> bool:
+    """Whether the texture repeats itself wherever the base does. Of mirrored and clamped ones only equal mappings do."""
+    matrix = _from(base, texture)
+    if matrix is None:
+        return False
+    if np.allclose(matrix, np.eye(3), atol=_SAME) and base.wrap == texture.wrap:
+        return True
+    is_whole = np.allclose(matrix[:2, :2], np.round(matrix[:2, :2]), atol=_SAME)
+    return is_whole and {*base.wrap, *texture.wrap} == {Wrap.REPEAT}
+
+
+def _size(textures: list[Texture], base: Texture) -> tuple[int, int]:
+    """Width and height: no texture has more texels along the base's axes, but none above `MAX_SIDE` is made."""
+    sides = [1, 1]
+    for texture in textures:
+        height, width = texture.image.pixels.shape[:2]
+        texels = np.abs(_from(base, texture)[:2, :2]) * np.array([[width], [height]])
+        sides = [max(side, int(np.ceil(along - _SAME))) for side, along in zip(sides, texels.max(axis=0))]
+    return min(sides[0], MAX_SIDE), min(sides[1], MAX_SIDE)
+
+
+def _sampled(texture: Texture, base: Texture, size: tuple[int, int]) -> np.ndarray:
+    """(height, width, 3) in linear colours, times the scale: at the middles of the base's texels."""
+    width, height = size
+    colours = srgb.linear(texture.image)
+    matrix = _from(base, texture)
+    if np.allclose(matrix, np.eye(3), atol=_SAME) and colours.shape[:2] == (height, width):
+        return colours * texture.scale
+    x, y = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    u, v = (matrix[k, 0] * x + matrix[k, 1] * y + matrix[k, 2] for k in range(2))
+    return looked_up(colours, u, v, texture.wrap, texture.is_nearest) * texture.scale
+
+
+def looked_up(colours: np.ndarray, u: np.ndarray, v: np.ndarray, wrap: tuple[Wrap, Wrap], is_nearest: bool) -> np.ndarray:
+    """Between texels, whose middles are at (i + 1/2) / size."""
+    height, width = colours.shape[:2]
+    if is_nearest:
+        return colours[_wrapped(np.floor(v * height), height, wrap[1]), _wrapped(np.floor(u * width), width, wrap[0])]
+    x, y = u * width - 0.5, v * height - 0.5
+    left, top = np.floor(x), np.floor(y)
+    columns = [_wrapped(left + k, width, wrap[0]) for k in (0, 1)]
+    rows = [_wrapped(top + k, height, wrap[1]) for k in (0, 1)]
+    across, down = (x - left)[..., None], (y - top)[..., None]
+    lines = [colours[row, columns[0]] * (1 - across) + colours[row, columns[1]] * across for row in rows]
+    return lines[0] * (1 - down) + lines[1] * down
+
+
+def _wrapped(index: np.ndarray, size: int, wrap: Wrap) -> np.ndarray:
+    index = index.astype(np.int64)
+    if wrap is Wrap.CLAMP:
+        return np.clip(index, 0, size - 1)
+    if wrap is Wrap.MIRRORED:
+        index = index % (2 * size)
+        return np.minimum(index, 2 * size - 1 - index)
+    return index % size
