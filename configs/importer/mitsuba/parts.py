@@ -1,0 +1,100 @@
+"""Shapes with their materials and lamps as parts of the scene; groups of shapes and their instances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from importer.materials import models
+from importer.mitsuba.colours import Use
+from importer.mitsuba.materials import MaterialReader
+from importer.mitsuba.normal_maps import suited
+from importer.mitsuba.plugin import Plugin
+from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, ShapeReader
+from importer.mitsuba.transforms import mirrors
+from importer.problems import ImportProblem, Notes
+from importer.scene import BLACK, Material, Part
+
+GROUPS = ("shapegroup", "instance", "merge")
+_MAX_PARTS = 1_000_000  # with all instances
+
+
+@dataclass
+class PartReader:
+    shapes: ShapeReader
+    materials: MaterialReader
+    notes: Notes
+    parts: list[Part] = field(default_factory=list)
+
+    def add(self, shape: Plugin, outer: np.ndarray | None = None) -> None:
+        """A shape of the scene, or with `outer` one of an instance's group."""
+        if shape.type == "instance":
+            self._instance(shape, outer)
+        elif shape.type == "merge":
+            for child in shape.all_of("shape"):
+                self.add(child, outer)
+        elif shape.type in (*FILES, *ANALYTIC):
+            self._single(shape, np.eye(4) if outer is None else outer)
+        elif shape.type in NO_COUNTERPART:
+            self.notes.refuse(f"a shape of type \"{shape.type}\"", shape.where)
+            return
+        elif shape.type != "shapegroup":  # which shows nothing but through its instances
+            raise ImportProblem(f"{shape.where}: is no shape of Mitsuba's; known are {', '.join((*FILES, *ANALYTIC, *GROUPS))}")
+        if shape.type != "shapegroup":
+            shape.note_rest(self.notes)
+
+    def _instance(self, shape: Plugin, outer: np.ndarray | None) -> None:
+        if outer is not None:
+            raise ImportProblem(f"{shape.where}: is an instance within a group, which Mitsuba does not allow")
+        to_world = shape.transform("to_world")
+        groups = shape.all_of("shape")
+        if len(groups) != 1 or groups[0].type != "shapegroup":
+            raise ImportProblem(f"{shape.where}: needs one <ref> to a <shape type=\"shapegroup\">")
+        for child in groups[0].all_of("shape"):
+            self.add(child, to_world)
+
+    def _single(self, shape: Plugin, outer: np.ndarray) -> None:
+        if len(self.parts) >= _MAX_PARTS:
+            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes and instances, the most that are read")
+        geometry = self.shapes.read(shape)
+        material = self._material(shape)
+        if material.opacity == 0.0 and material.radiance == BLACK:
+            self.notes.left_out("surfaces that nothing sees (null)", shape.where)
+            return
+        if models.is_inward(material):
+            geometry = self.shapes.inside_out(geometry)
+        to_world = outer @ geometry.to_world
+        if material.normal_map:
+            material = replace(material, normal_map=suited(material.normal_map, geometry.mesh, mirrors(to_world)))
+        self.parts.append(Part(shape.id or geometry.mesh.name or shape.type, geometry.mesh, material, to_world))
+
+    def _material(self, shape: Plugin) -> Material:
+        emitter = shape.only("emitter")
+        has_medium = bool(shape.all_of("medium"))
+        if has_medium:
+            self.notes.refuse("a medium", shape.where)
+        if shape.all_of("subsurface"):
+            self.notes.refuse("light that scatters below a surface (subsurface)", shape.where)
+        if shape.all_of("sensor"):
+            self.notes.left_out("a sensor on a shape", shape.where)
+        bsdf = shape.only("bsdf")
+        if bsdf:
+            material = self.materials.read(bsdf)
+        elif has_medium and not emitter:
+            material = models.null("null")
+        else:  # Shape::configure of 0.6, Shape::Shape of 3
+            grey = 0.0 if emitter else 0.5
+            material = models.diffuse("default", (grey, grey, grey), self.notes, shape.where)
+        return self._lit(material, emitter, shape) if emitter else material
+
+    def _lit(self, material: Material, emitter: Plugin, shape: Plugin) -> Material:
+        """One-sided, as all of Mitsuba's area lights are."""
+        if emitter.type != "area":
+            self.notes.refuse(f"an emitter of type \"{emitter.type}\" on a shape", emitter.where)
+            return material
+        emitter.ignore("sampling_weight")
+        radiance = self.materials.textures.colour(emitter, "radiance", 1.0, Use.EMISSION)
+        emitter.note_rest(self.notes)
+        lamp = models.lamp(material, radiance, False, self.notes, emitter.where)
+        return replace(lamp, name=f"{material.name} of {shape.id or shape.type}")
