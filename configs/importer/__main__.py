@@ -11,7 +11,7 @@ from pathlib import Path
 
 from importer.output.config import config_of, write_config
 from importer.output.glb import Totals, write_glb
-from importer.output.inputs import Inputs, format_of, mitsuba_version
+from importer.output.inputs import Inputs, format_of
 from importer.output.sky import write_sky
 from importer.output.terminal import progress, report
 from importer.output.world import world_of
@@ -96,8 +96,7 @@ def run(options: argparse.Namespace) -> None:
     inputs = Inputs(options.scene)
     with progress(lambda: f"{len(inputs.files)} files, {inputs.latest()}"):
         scene = _read(options, format_name, notes)
-        version = mitsuba_version(options.scene) if format_name == "Mitsuba" else ""
-        source = inputs.describe(format_name, version)
+        source = inputs.describe(format_name, scene.source_version)
         totals, config, files = _write(scene, outputs, notes, source)
     print(report(totals, config, source, notes, time.monotonic() - start))
     print("\nwritten     " + ", ".join(map(str, files)))

@@ -149,6 +149,16 @@ class MaterialsTest(unittest.TestCase):
         np.testing.assert_allclose(lit, wanted, atol=2e-5)
         np.testing.assert_allclose(found[0, :, 3], [0, linear(188)], atol=1e-5)
 
+    def test_colours_and_opacity_that_lie_differently(self) -> None:
+        """Two colours that repeat twice, over a mask of four texels that does not."""
+        colours = Texture(bytes_image([[[255, 0, 0], [0, 0, 255]]], "colours"), np.array([[2.0, 0, 0], [0, 1, 0]]), is_nearest=True)
+        mask = Texture(bytes_image([[[255] * 3, [0] * 3, [0] * 3, [255] * 3]], "mask"), is_nearest=True)
+        said, _, glb = self.material(base_colour=colours, opacity=mask)
+        info = said["pbrMetallicRoughness"]["baseColorTexture"]
+        np.testing.assert_allclose(image_from_uv(info), np.eye(3)[:2])
+        np.testing.assert_allclose(glb.texels(info), [[[1, 0, 0, 1], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 1, 1]]])
+        self.assertEqual([row["kind"] for row in self.notes.rows()], ["approximated"])
+
     def test_no_part_of_opacity_zero(self) -> None:
         glb = self.glb(Material("seen"), Material("unseen", opacity=0.0))
         self.assertEqual([node["name"] for node in glb.document["nodes"]], ["part_0", "camera"])

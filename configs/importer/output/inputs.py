@@ -69,10 +69,3 @@ def format_of(scene: Path) -> str:
     if re.search(rb"^\s*(WorldBegin|LookAt|Camera|Film|Include|Integrator)\b", head, re.MULTILINE):
         return "pbrt"
     raise ImportProblem(f"{scene}: it is neither XML nor pbrt; a Mitsuba .xml or a .pbrt file would be right")
-
-
-def mitsuba_version(scene: Path) -> str:
-    """As the file says it; "" where it says nothing, which the reader judges."""
-    with scene.open("rb") as file:
-        found = re.search(rb"<scene[^>]*\bversion\s*=\s*[\"']([0-9.]{1,20})[\"']", file.read(_HEAD))
-    return found[1].decode() if found else ""

@@ -9,8 +9,7 @@ from typing import Callable
 
 import numpy as np
 
-from importer.images import bake
-from importer.output.pixels import linear_rgb
+from importer.images import bake, srgb
 from importer.problems import Notes
 from importer.scene import WHITE, Image, Texture
 
@@ -35,7 +34,7 @@ def in_alpha(numbers: np.ndarray) -> np.ndarray:
 
 def texel_numbers(texture: Texture) -> np.ndarray:
     """(height, width): the mean of R, G and B with the texture's scale, as scene.py has it."""
-    return linear_rgb(texture.image) @ (np.asarray(texture.scale, float) / 3)
+    return srgb.linear(texture.image) @ (np.asarray(texture.scale, float) / 3)
 
 
 @dataclass
@@ -57,15 +56,17 @@ class Packer:
             return texture
         scale = np.asarray(texture.scale, float)
         return self._with(texture, ("colours", texture.scale),
-                          lambda: self._clipped(linear_rgb(texture.image) * scale, where))
+                          lambda: self._clipped(srgb.linear(texture.image) * scale, where))
 
     def colours_and_opacity(self, colours: Texture, opacity: Texture, where: str) -> Texture:
-        """Both in one image, mapped as `bake.combined` chooses."""
-        def join(rgb: np.ndarray, numbers: np.ndarray) -> np.ndarray:
-            return np.concatenate([rgb[..., :3], numbers.mean(axis=2, keepdims=True)], axis=2)
-
+        """Both in one image with a scale of 1, mapped as `bake.combined` chooses for the two."""
         coverage = self.numbers(opacity, in_all, where)
-        return bake.combined(self.colours(colours, where), coverage, join)
+        colours = self.colours(colours, where)
+        if not (np.array_equal(colours.image_from_uv, coverage.image_from_uv) and colours.wrap == coverage.wrap):
+            self.notes.approximated("a colour and an opacity that lie differently on a surface as one image, resampled", where)
+        rgb, alpha = (bake.combined(colours, coverage, lambda *both: both[i]) for i in (0, 1))
+        pixels = np.concatenate([rgb.image.pixels, alpha.image.pixels[..., :1]], axis=2)
+        return dataclasses.replace(rgb, image=Image(rgb.image.name, pixels))
 
     def _with(self, texture: Texture, key: tuple, make: Callable[[], np.ndarray]) -> Texture:
         key = (id(texture.image), *key)

@@ -6,6 +6,7 @@ from enum import Enum
 
 import numpy as np
 
+from importer.images import srgb
 from importer.problems import ImportProblem
 from importer.scene import Image
 from scenes.png_file import png_bytes
@@ -22,24 +23,6 @@ class Channels(Enum):
     COLOUR_ALONE = "sRGB, and there must be no alpha"
     COLOUR_AND_ALPHA = "sRGB and alpha"
     NUMBERS = "linear"
-
-
-def decoded(values: np.ndarray) -> np.ndarray:
-    """sRGB in [0, 1] as linear values (IEC 61966-2-1)."""
-    return np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
-
-
-def _to_srgb(linear: np.ndarray) -> np.ndarray:
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-
-
-_LINEAR_OF_BYTE = decoded(np.arange(256) / 255)
-
-
-def linear_rgb(image: Image) -> np.ndarray:
-    """(height, width, 3) float64. A byte has one of 256 values, and so a table is all it takes."""
-    rgb = image.pixels[..., :3]
-    return _LINEAR_OF_BYTE[rgb] if rgb.dtype == np.uint8 else np.asarray(rgb, float)
 
 
 def _check(image: Image) -> None:
@@ -63,17 +46,17 @@ def _values(image: Image, channels: Channels) -> np.ndarray:
     """In [0, 1], in the file's own encoding."""
     pixels, is_bytes = image.pixels, image.pixels.dtype == np.uint8
     if channels is Channels.NUMBERS:
-        return linear_rgb(image)
-    colours = pixels[..., :3] / 255 if is_bytes else _to_srgb(np.clip(pixels[..., :3], 0, 1))
+        return srgb.linear(image)
+    colours = pixels[..., :3] / 255 if is_bytes else srgb.from_linear(pixels[..., :3])
     if channels is not Channels.COLOUR_AND_ALPHA or pixels.shape[2] == 3:
         return colours
     return np.concatenate([colours, pixels[..., 3:] / 255 if is_bytes else pixels[..., 3:]], axis=2)
 
 
 def _is_same_file(image: Image, channels: Channels) -> bool:
-    """Whether the reader makes of `encoded` what `pixels` say: of colours in bytes alone, as floats may stand for a file
-    that was read in another way."""
-    if image.encoded is None or image.pixels.dtype != np.uint8:
+    """Whether the reader makes of `encoded` what `pixels` say. It is there where glTF reads the same colours from it
+    (importer.images.load), and numbers are read in another way than colours."""
+    if image.encoded is None:
         return False
     fits = channels is Channels.COLOUR or (channels is Channels.COLOUR_ALONE and image.pixels.shape[2] == 3)
     return fits and image.encoded.startswith(_SIGNATURES.get(image.mime_type, b"\0"))

@@ -51,9 +51,12 @@ def _is_mirroring(camera: Camera) -> bool:
 
 
 def _checked(sky: Sky) -> np.ndarray:
+    """A scale is no part of a direction."""
     turn = np.asarray(sky.to_world, float)
+    scale = np.linalg.norm(turn, axis=0).mean()
+    turn = turn / scale if 0 < scale < np.inf else turn
     if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-4):
-        raise ImportProblem("environment light: its transform scales or shears; a rotation would be right")
+        raise ImportProblem("environment light: its transform shears or stretches; a rotation would be right")
     return turn
 
 
