@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Callable
+from typing import Callable, Iterator
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from importer.images import srgb
 from importer.scene import WHITE, Colour, Image, Rgb, Texture, Wrap
 
 MAX_SIDE = 4096  # of images that are made here
+_MAX_FLOATS = 1 << 22  # texels that are kept as floats
+_BAND = 256
 _SAME = 1e-6
 
 
@@ -20,23 +22,39 @@ def constant(name: str, rgb: Rgb) -> Image:
 
 def checkerboard(name: str, first: Rgb, second: Rgb) -> Image:
     """2 x 2 texels for a texture with `is_nearest`: `first` where u and v are both below or both above a half, as
-    Mitsuba's checkerboard has color0. pbrt's checkers are one unit each and the other way up: with its v turned over
-    (v' = 1 - v) and coordinates (u / 2, v' / 2 - 1 / 2) they are these, `first` being tex1."""
+    Mitsuba's checkerboard has color0. pbrt's checkers are one unit each, and with its v turned over (v' = 1 - v) they
+    are these at (u / 2, v' / 2), `first` being tex1."""
     pixels = np.array([[first, second], [second, first]], float)
     return Image(name, np.clip(pixels, 0, 1))
 
 
 def mapped(image: Image, function: Callable[[np.ndarray], np.ndarray], name: str | None = None) -> Image:
-    """The function gets and returns (height, width, 3) linear colours, of which [0, 1] is kept. Alpha stays as it is."""
-    return _with_alpha(name or image.name, np.asarray(function(srgb.linear(image)), float), image)
+    """The function gets and returns some lines of linear colours, (lines, width, 3), of which [0, 1] is kept; it has to
+    be one of each texel for itself. Alpha stays as it is."""
+    height, width, channels = image.pixels.shape
+    result = Image(name or image.name, _empty(height, width, channels))
+    for rows in _bands(height):
+        _store(result, rows, np.asarray(function(srgb.linear_lines(image, rows)), float))
+    if channels == 4:
+        alpha = image.pixels[..., 3] / (255 if image.pixels.dtype == np.uint8 else 1)
+        result.pixels[..., 3] = np.rint(alpha * 255) if result.pixels.dtype == np.uint8 else alpha
+    return result
 
 
-def _with_alpha(name: str, colours: np.ndarray, image: Image) -> Image:
-    colours = np.clip(colours, 0, 1)
-    if image.pixels.shape[2] == 4:
-        alpha = image.pixels[..., 3:]
-        colours = np.concatenate([colours, alpha / 255 if alpha.dtype == np.uint8 else alpha], axis=2)
-    return Image(name, colours)
+def _empty(height: int, width: int, channels: int) -> np.ndarray:
+    """Linear colours; for images so large that they would take hundreds of MB that way, bytes in sRGB."""
+    return np.empty((height, width, channels), np.float64 if height * width <= _MAX_FLOATS else np.uint8)
+
+
+def _bands(height: int) -> Iterator[slice]:
+    """Some lines at a time, since the steps of a formula take several times the memory of what they work on."""
+    for top in range(0, height, _BAND):
+        yield slice(top, min(top + _BAND, height))
+
+
+def _store(image: Image, rows: slice, colours: np.ndarray) -> None:
+    is_bytes = image.pixels.dtype == np.uint8
+    image.pixels[rows, :, :3] = np.rint(255 * srgb.from_linear(colours)) if is_bytes else np.clip(colours, 0, 1)
 
 
 def scaled(texture: Texture, rgb: Rgb) -> Texture:
@@ -55,7 +73,7 @@ def applied(texture: Texture) -> Texture:
 def combined(first: Colour, second: Colour, how: Callable[[np.ndarray, np.ndarray], np.ndarray], name: str = "") -> Colour:
     """`how` of two colours or textures, as a colour of two colours, else as a texture with a scale of 1.
 
-    `how` gets (height, width, 3) or (3,) arrays with scales in them and returns the like; of textures, [0, 1] is kept.
+    `how` gets (lines, width, 3) or (3,) arrays with scales in them and returns the like; of textures, [0, 1] is kept.
     Where the textures' mappings agree, their texels meet one to one, or the larger image's with the smaller one looked
     up between its own. Else one of them is repeated within the other's period where it fits there a whole number
     of times; where none does, the square of u and v from 0 to 1 is baked, and what lies outside of it repeats it.
@@ -65,11 +83,11 @@ def combined(first: Colour, second: Colour, how: Callable[[np.ndarray, np.ndarra
     textures = [t for t in (first, second) if isinstance(t, Texture)]
     base = _base(textures)
     size = _size(textures, base)
-    sources = [_sampled(c, base, size) if isinstance(c, Texture) else np.array(c, float) for c in (first, second)]
-    pixels = np.broadcast_to(np.asarray(how(*sources), float), (size[1], size[0], 3))
-    label = name or "_".join(t.image.name for t in textures)
-    return replace(base, image=Image(label, np.clip(pixels, 0, 1)), scale=WHITE,
-                   is_nearest=all(t.is_nearest for t in textures))
+    image = Image(name or "_".join(t.image.name for t in textures), _empty(size[1], size[0], 3))
+    for rows in _bands(size[1]):
+        sources = [_sampled(c, base, size, rows) if isinstance(c, Texture) else np.array(c, float) for c in (first, second)]
+        _store(image, rows, np.asarray(how(*sources), float))
+    return replace(base, image=image, scale=WHITE, is_nearest=all(t.is_nearest for t in textures))
 
 
 def _square(matrix: np.ndarray) -> np.ndarray:
@@ -113,30 +131,34 @@ def _size(textures: list[Texture], base: Texture) -> tuple[int, int]:
     return min(sides[0], MAX_SIDE), min(sides[1], MAX_SIDE)
 
 
-def _sampled(texture: Texture, base: Texture, size: tuple[int, int]) -> np.ndarray:
-    """(height, width, 3) in linear colours, times the scale: at the middles of the base's texels."""
+def _sampled(texture: Texture, base: Texture, size: tuple[int, int], rows: slice) -> np.ndarray:
+    """(lines, width, 3) in linear colours, times the scale: at the middles of the base's texels in these lines."""
     width, height = size
-    colours = srgb.linear(texture.image)
     matrix = _from(base, texture)
-    if np.allclose(matrix, np.eye(3), atol=_SAME) and colours.shape[:2] == (height, width):
-        return colours * texture.scale
-    x, y = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    if np.allclose(matrix, np.eye(3), atol=_SAME) and texture.image.pixels.shape[:2] == (height, width):
+        return srgb.linear_lines(texture.image, rows) * texture.scale
+    x, y = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(rows.start, rows.stop) + 0.5) / height)
     u, v = (matrix[k, 0] * x + matrix[k, 1] * y + matrix[k, 2] for k in range(2))
-    return looked_up(colours, u, v, texture.wrap, texture.is_nearest) * texture.scale
+    return looked_up(texture, u, v) * texture.scale
 
 
-def looked_up(colours: np.ndarray, u: np.ndarray, v: np.ndarray, wrap: tuple[Wrap, Wrap], is_nearest: bool) -> np.ndarray:
-    """Between texels, whose middles are at (i + 1/2) / size."""
-    height, width = colours.shape[:2]
-    if is_nearest:
-        return colours[_wrapped(np.floor(v * height), height, wrap[1]), _wrapped(np.floor(u * width), width, wrap[0])]
+def looked_up(texture: Texture, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """The image's linear colours at its own coordinates: between texels, whose middles are at (i + 1/2) / size."""
+    height, width = texture.image.pixels.shape[:2]
+    across, down = texture.wrap
+    if texture.is_nearest:
+        return srgb.linear_at(texture.image, _wrapped(np.floor(v * height), height, down),
+                              _wrapped(np.floor(u * width), width, across))
     x, y = u * width - 0.5, v * height - 0.5
     left, top = np.floor(x), np.floor(y)
-    columns = [_wrapped(left + k, width, wrap[0]) for k in (0, 1)]
-    rows = [_wrapped(top + k, height, wrap[1]) for k in (0, 1)]
-    across, down = (x - left)[..., None], (y - top)[..., None]
-    lines = [colours[row, columns[0]] * (1 - across) + colours[row, columns[1]] * across for row in rows]
-    return lines[0] * (1 - down) + lines[1] * down
+    columns = [_wrapped(left + k, width, across) for k in (0, 1)]
+    share = (x - left)[..., None]
+    lines = []
+    for row in (_wrapped(top + k, height, down) for k in (0, 1)):
+        near, far = (srgb.linear_at(texture.image, row, column) for column in columns)
+        lines.append(near * (1 - share) + far * share)
+    share = (y - top)[..., None]
+    return lines[0] * (1 - share) + lines[1] * share
 
 
 def _wrapped(index: np.ndarray, size: int, wrap: Wrap) -> np.ndarray:

@@ -7,7 +7,8 @@ from pathlib import Path
 from importer.problems import ImportProblem
 
 MAX_SIDE = 32768  # what the engine reads of pictures
-MAX_PIXELS = 1 << 26  # 8192 x 8192: 1.5 GiB as linear colours
+MAX_PIXELS = 1 << 27  # of bytes: 384 MiB
+MAX_FLOATS = 1 << 25  # pixels of files of floats, 8192 x 4096: 384 MiB
 _MAX_BYTES = 1 << 30
 
 
@@ -23,7 +24,7 @@ def read_bytes(path: Path) -> bytes:
     return data
 
 
-def check_size(path: Path, width: int, height: int) -> None:
-    if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
+def check_size(path: Path, width: int, height: int, most: int = MAX_FLOATS) -> None:
+    if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= most):
         raise ImportProblem(f"{path}: the image has {width} x {height} pixels; it may have {MAX_SIDE} each way and "
-                            f"{MAX_PIXELS >> 20} Mi in all")
+                            f"{most >> 20} Mi in all")

@@ -16,7 +16,7 @@ from PIL import Image as Pillow
 
 from importer.images import srgb
 from importer.images.exr_file import read_exr
-from importer.images.files import check_size, read_bytes
+from importer.images.files import MAX_PIXELS, check_size, read_bytes
 from importer.images.radiance import read_hdr, read_pfm
 from importer.problems import ImportProblem
 from importer.scene import Image
@@ -77,7 +77,7 @@ def _opened(path: Path, data: bytes) -> Pillow.Image:
             picture = Pillow.open(io.BytesIO(data), formats=_FORMATS)
         except _PILLOW_ERRORS as error:
             raise ImportProblem(f"{path}: the image is none of {', '.join(_FORMATS)}, EXR, HDR and PFM, or is damaged") from error
-    check_size(path, *picture.size)
+    check_size(path, *picture.size, MAX_PIXELS)
     return picture
 
 

@@ -23,5 +23,16 @@ _OF_BYTES = to_linear(np.arange(256) / 255)
 
 def linear(image: Image) -> np.ndarray:
     """(height, width, 3) float64: without alpha."""
-    colours = image.pixels[..., :3]
+    return linear_lines(image, slice(None))
+
+
+def linear_lines(image: Image, rows: slice) -> np.ndarray:
+    return _of(image.pixels[rows, :, :3])
+
+
+def linear_at(image: Image, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    return _of(image.pixels[rows, columns, :3])
+
+
+def _of(colours: np.ndarray) -> np.ndarray:
     return _OF_BYTES[colours] if colours.dtype == np.uint8 else colours
