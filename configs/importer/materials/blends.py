@@ -21,7 +21,9 @@ _CHOICES = ("ior", "is_thin", "attenuation_colour", "attenuation_distance", "nor
 def blended(a: Material, b: Material, weight: Number, notes: Notes, where: str) -> Material:
     """`weight`: the share of b. Exact where it is all or nothing, where one of the two is not seen, and where both are
     Lambert's; else a material of mixed parameters."""
-    lowest, highest = _span(weight, where)
+    lowest, highest = parameters.span(weight)
+    if not np.isfinite((lowest, highest)).all():
+        raise ImportProblem(f"{where}: the weight of a blend is no number; 0 to 1 would be right")
     if highest <= 0.0:
         return a
     if lowest >= 1.0:
@@ -33,13 +35,6 @@ def blended(a: Material, b: Material, weight: Number, notes: Notes, where: str) 
     if not (_is_lambert(a) and _is_lambert(b)):
         notes.approximated("a blend of two materials as one with the mean of their parameters", where)
     return _mixed(a, b, weight)
-
-
-def _span(weight: Number, where: str) -> tuple[float, float]:
-    values = parameters.texels(weight).mean(axis=2) if isinstance(weight, Texture) else np.array(float(weight))
-    if not np.isfinite(values).all():
-        raise ImportProblem(f"{where}: the weight of a blend is no number; 0 to 1 would be right")
-    return float(values.min()), float(values.max())
 
 
 def _is_lambert(material: Material) -> bool:

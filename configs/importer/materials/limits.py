@@ -19,20 +19,20 @@ def bound(error: float) -> str:
 
 def checked_number(value: Number, what: str, where: str, least: float = 0.0, most: float = np.inf) -> Number:
     """Refuses numbers without meaning; of textures the texels are looked at."""
-    values = parameters.texels(value) if isinstance(value, parameters.Texture) else np.array(value, dtype=float)
-    if not np.isfinite(values).all() or float(values.min()) < least or float(values.max()) > most:
-        bad = values[~np.isfinite(values) | (values < least) | (values > most)].ravel()[0]
-        span = f"from {least:g} to {most:g}" if np.isfinite(most) else f"of {least:g} or more"
-        raise ImportProblem(f"{where}: {what} is {bad:g}; a number {span} would be right")
+    low, high = parameters.span(value)
+    if not (np.isfinite((low, high)).all() and least <= low and high <= most):
+        bad = low if not np.isfinite(low) or low < least else high
+        right = f"from {least:g} to {most:g}" if np.isfinite(most) else f"of {least:g} or more"
+        raise ImportProblem(f"{where}: {what} is {bad:g}; a number {right} would be right")
     return value
 
 
 def reflectance(colour: Colour, what: str, notes: Notes, where: str) -> Colour:
     """A colour of [0, 1]: both renderers clamp what is above, and say that what is below 0 has no meaning."""
-    values = parameters.texels(colour) if isinstance(colour, parameters.Texture) else np.array(colour, dtype=float)
-    if not np.isfinite(values).all() or float(values.min()) < 0.0:
+    low, high = parameters.span(colour)
+    if not (np.isfinite((low, high)).all() and low >= 0.0):
         raise ImportProblem(f"{where}: {what} has a channel that is negative or no number; 0 to 1 would be right")
-    if float(values.max()) <= 1.0 + 1e-9:
+    if high <= 1.0 + 1e-9:
         return colour
     notes.approximated("reflectances above 1 as 1", where)
     return parameters.map_colour(colour, lambda rgb: np.minimum(rgb, 1.0), "at most 1")

@@ -3,29 +3,65 @@
 from __future__ import annotations
 
 import weakref
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Callable
 
 import numpy as np
 
+from importer.images import bake, srgb
 from importer.scene import Colour, Image, Number, Rgb, Texture
 
 Map = Callable[[np.ndarray], np.ndarray]
 
-_DECODED = np.arange(256) / 255.0
-_DECODED = np.where(_DECODED <= 0.04045, _DECODED / 12.92, ((_DECODED + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
-# What was mapped once is not stored twice: several materials share an image with the same function of it.
+
+@dataclass(frozen=True)
+class Statistics:
+    """Of an image's linear colours, by channel; not finite where a texel is not."""
+
+    least: np.ndarray
+    most: np.ndarray
+    mean: np.ndarray
+    is_grey: bool
+
+
+# An image is looked at once, and what was mapped once is not stored twice: materials share images.
+_known: weakref.WeakKeyDictionary[Image, Statistics] = weakref.WeakKeyDictionary()
 _mapped: weakref.WeakKeyDictionary[Image, dict[object, Texture]] = weakref.WeakKeyDictionary()
 
 
-def linear_pixels(image: Image) -> np.ndarray:
-    """(height, width, 3) float64 in linear colours, without alpha."""
+def statistics(image: Image) -> Statistics:
+    if image not in _known:
+        _known[image] = _statistics(image)
+    return _known[image]
+
+
+def _statistics(image: Image) -> Statistics:
     pixels = image.pixels[:, :, :3]
-    return _DECODED[pixels] if pixels.dtype == np.uint8 else pixels.astype(np.float64)
+    difference = max(float(np.abs(pixels[:, :, k] - pixels[:, :, 0].astype(np.float64)).max()) for k in (1, 2))
+    if pixels.dtype == np.uint8:
+        # By counts of the 256 values, since all texels as numbers would be 24 bytes each.
+        counts = np.stack([np.bincount(pixels[:, :, k].ravel(), minlength=256) for k in range(3)])
+        values = srgb.to_linear(np.arange(256) / 255.0)
+        extremes = [values[np.flatnonzero(row)[[0, -1]]] for row in counts]
+        return Statistics(np.array([e[0] for e in extremes]), np.array([e[1] for e in extremes]),
+                          counts @ values / counts[0].sum(), difference == 0.0)
+    flat = pixels.reshape(-1, 3)
+    return Statistics(flat.min(axis=0), flat.max(axis=0), flat.mean(axis=0, dtype=np.float64), difference < 1e-6)
 
 
 def texels(texture: Texture) -> np.ndarray:
-    return linear_pixels(texture.image) * np.asarray(texture.scale)
+    """(height, width, 3) in linear colours, times the scale."""
+    return srgb.linear(texture.image) * np.asarray(texture.scale)
+
+
+def span(parameter: Colour | Number) -> tuple[float, float]:
+    """The least and the greatest of all channels; NaN where one is no number."""
+    if isinstance(parameter, Texture):
+        found, scale = statistics(parameter.image), np.asarray(parameter.scale)
+        ends = np.concatenate([found.least * scale, found.most * scale])
+    else:
+        ends = np.atleast_1d(np.array(parameter, dtype=float))
+    return float(ends.min()), float(ends.max())
 
 
 def texture_of(values: np.ndarray, like: Texture, name: str) -> Texture:
@@ -39,7 +75,7 @@ def texture_of(values: np.ndarray, like: Texture, name: str) -> Texture:
 def mean_rgb(colour: Colour) -> Rgb:
     if not isinstance(colour, Texture):
         return colour
-    red, green, blue = texels(colour).reshape(-1, 3).mean(axis=0)
+    red, green, blue = statistics(colour.image).mean * np.asarray(colour.scale)
     return float(red), float(green), float(blue)
 
 
@@ -48,12 +84,13 @@ def mean_number(number: Number) -> float:
 
 
 def greatest(colour: Colour) -> float:
-    return float(texels(colour).max()) if isinstance(colour, Texture) else max(colour)
+    return span(colour)[1]
 
 
 def is_grey(colour: Colour) -> bool:
-    values = texels(colour) if isinstance(colour, Texture) else np.array(colour)
-    return bool((np.ptp(values, axis=-1) <= 1e-6 * max(1.0, float(values.max()))).all())
+    if isinstance(colour, Texture):
+        return statistics(colour.image).is_grey and is_grey(colour.scale)
+    return max(colour) - min(colour) <= 1e-6 * max(1.0, max(colour))
 
 
 def is_constant(parameter: Colour | Number, value: float) -> bool:
@@ -106,38 +143,13 @@ def _mapped_texture(texture: Texture, function: Map, key: object) -> Texture:
     return replace(texture, image=found.image, scale=found.scale)
 
 
-def _lie_alike(a: Texture, b: Texture) -> bool:
-    return bool(np.allclose(a.image_from_uv, b.image_from_uv)) and a.wrap == b.wrap
-
-
-def _resampled(a: Texture, b: Texture) -> np.ndarray:
-    """b's texels at the centres of a's, the nearest ones; where they lie differently, over a's first period."""
-    height, width = a.image.pixels.shape[:2]
-    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
-    image_b = np.stack([u, v])
-    if not _lie_alike(a, b):
-        to_uv = np.linalg.inv(np.vstack([a.image_from_uv, (0.0, 0.0, 1.0)]))
-        uv = np.einsum("ij,jhw->ihw", to_uv[:2], np.stack([u, v, np.ones_like(u)]))
-        image_b = np.einsum("ij,jhw->ihw", b.image_from_uv, np.concatenate([uv, np.ones_like(u)[None]]))
-    rows, columns = b.image.pixels.shape[:2]
-    x = np.floor(image_b[0] * columns).astype(np.int64) % columns
-    y = np.floor(image_b[1] * rows).astype(np.int64) % rows
-    return texels(b)[y, x]
-
-
 def combine_colours(a: Colour, b: Colour, function: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> Colour:
-    """A function of two parameters, texel by texel of the texture with more texels. Exact where both lie alike and have
-    the same number of texels."""
-    if not isinstance(a, Texture) and not isinstance(b, Texture):
-        red, green, blue = function(np.array(a, dtype=float), np.array(b, dtype=float))
-        return float(red), float(green), float(blue)
-    if not isinstance(b, Texture):
-        return map_colour(a, lambda rgb: function(rgb, np.array(b, dtype=float)))
-    if not isinstance(a, Texture):
-        return map_colour(b, lambda rgb: function(np.array(a, dtype=float), rgb))
-    if a.image.pixels[:, :, 0].size >= b.image.pixels[:, :, 0].size:
-        return texture_of(function(texels(a), _resampled(a, b)), a, f"{a.image.name} and {b.image.name}")
-    return texture_of(function(_resampled(b, a), texels(b)), b, f"{a.image.name} and {b.image.name}")
+    """A function of two parameters, texel by texel (see `bake.combined`), which must not grow beyond the greatest of both
+    and its value there."""
+    most = np.array([max(greatest(a), 0.0)]), np.array([max(greatest(b), 0.0)])
+    limit = float(max(1.0, most[0].max(), most[1].max(), function(*most).max()))
+    made = bake.combined(a, b, lambda x, y: function(x, y) / limit)
+    return made if limit == 1.0 else scaled(made, limit)
 
 
 def combine_numbers(a: Number, b: Number, function: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> Number:
@@ -145,12 +157,9 @@ def combine_numbers(a: Number, b: Number, function: Callable[[np.ndarray, np.nda
         return float(function(np.array(float(a)), np.array(float(b))))
 
     def of_means(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        x, y = (np.mean(side, axis=-1, keepdims=True) for side in (x, y))
-        return np.broadcast_to(function(x, y), (*np.broadcast_shapes(x.shape, y.shape)[:-1], 3))
+        return function(*(np.mean(side, axis=-1, keepdims=True) for side in (x, y)))
 
-    left: Colour = a if isinstance(a, Texture) else (a, a, a)
-    right: Colour = b if isinstance(b, Texture) else (b, b, b)
-    result = combine_colours(left, right, of_means)
+    result = combine_colours(colour_of_number(a), colour_of_number(b), of_means)
     assert isinstance(result, Texture)
     return result
 

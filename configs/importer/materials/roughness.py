@@ -17,7 +17,7 @@ LEAST_ALPHA = 0.005 ** 2
 
 def mitsuba_roughness(alpha: Number) -> Number:
     """glTF's roughness of an alpha; where alpha is a texture, texel by texel."""
-    return parameters.map_number(alpha, lambda a: np.sqrt(np.clip(a, 0.0, 1.0)))
+    return parameters.map_number(alpha, lambda a: np.sqrt(np.clip(a, 0.0, 1.0)), "root")
 
 
 def _alpha_of_v4(roughness: np.ndarray) -> np.ndarray:
@@ -38,8 +38,8 @@ def pbrt_alpha(roughness: Number, remap: bool, version: int) -> Number:
     if not remap:
         return roughness
     if version == 4:
-        return parameters.map_number(roughness, _alpha_of_v4)
-    return parameters.map_number(roughness, lambda r: np.where(r > 0.0, _alpha_of_v3(r), 0.0))
+        return parameters.map_number(roughness, _alpha_of_v4, "v4")
+    return parameters.map_number(roughness, lambda r: np.where(r > 0.0, _alpha_of_v3(r), 0.0), "v3")
 
 
 def pbrt_roughness(roughness: Number, remap: bool, version: int) -> Number:
@@ -66,10 +66,14 @@ def note_distribution(name: str, notes: Notes, where: str) -> None:
 
     Beckmann's alpha is taken as it is: then both distributions have the same density 1/(pi alpha^2) of microfacets that
     face the normal, so that the middle of a highlight is as bright as in the source, and GGX's has the wider skirt.
-    Phong's, of the older Mitsuba, is parametrised by the same alpha there (MicrofacetDistribution::computePhongExponent)."""
+    Mitsuba's masking and shadowing is the product of both directions' (MicrofacetDistribution::G), glTF's height-correlated.
+    Phong's distribution, of the older Mitsuba, is parametrised by the same alpha there (MicrofacetDistribution::computePhongExponent)."""
     if name == "beckmann":
         notes.approximated("Beckmann's microfacets as GGX's of the same alpha, which have a wider skirt", where)
     elif name in ("phong", "as"):
         notes.approximated("Phong's microfacets as GGX's of the same alpha, which have a wider skirt", where)
-    elif name != "ggx":
+    elif name == "ggx":
+        notes.approximated("masking and shadowing of microfacets as height-correlated, which is brighter at grazing angles",
+                           where)
+    else:
         raise ImportProblem(f"{where}: the distribution \"{name}\" is none of beckmann, ggx, phong and as")

@@ -75,8 +75,8 @@ def masked(material: Material, opacity: Number, notes: Notes, where: str) -> Mat
 
 def lamp(material: Material, radiance: Colour, both_sides: bool, notes: Notes, where: str) -> Material:
     """The material with emission besides."""
-    values = parameters.texels(radiance) if isinstance(radiance, Texture) else np.array(radiance, dtype=float)
-    if not np.isfinite(values).all() or float(values.min()) < 0.0:
+    low, high = parameters.span(radiance)
+    if not (np.isfinite((low, high)).all() and low >= 0.0):
         raise ImportProblem(f"{where}: a radiance has a channel that is negative or no number; 0 or more would be right")
     if not parameters.is_constant(material.clearcoat, 0.0):
         notes.approximated("the emission below a coat, which dims it here", where)
