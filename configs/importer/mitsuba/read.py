@@ -25,6 +25,7 @@ def read_mitsuba(path: Path, notes: Notes, parameters: dict[str, str]) -> Scene:
     tree = SceneTree(path, notes, parameters)
     root = tree.read(path)
     scene = Scene(path.stem, read_camera(_sensor(root, notes), notes))
+    scene.source_version = tree.version
     scene.max_bounces = read_max_bounces(_integrator(root), notes)
     for emitter in root.all_of("emitter"):
         read_light(emitter, scene, tree.folder, notes)

@@ -37,12 +37,12 @@ def parsed(path: Path, label: str) -> etree._Element:
         raise ImportProblem(f"{label}: is larger than {_MAX_BYTES >> 20} MiB, the most that is read of XML")
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True, remove_pis=True)
     try:
-        document = etree.parse(str(path), parser)
+        root = etree.fromstring(path.read_bytes(), parser)
     except (etree.XMLSyntaxError, OSError) as error:
         raise ImportProblem(f"{label}: is no well-formed XML ({str(error).splitlines()[0][:200]})") from error
-    if document.docinfo.internalDTD is not None:
+    if root.getroottree().docinfo.internalDTD is not None:
         raise ImportProblem(f"{label}: declares a document type; scenes without <!DOCTYPE> are read")
-    return document.getroot()
+    return root
 
 
 def element(node: etree._Element, label: str, parameters: Parameters) -> Element:

@@ -31,6 +31,7 @@ class SceneTree:
     def __init__(self, scene: Path, notes: Notes, parameters: dict[str, str]) -> None:
         self.folder = SceneFolder(scene)
         self.files: list[Path] = []
+        self.version = ""  # of the scene's own file
         self._notes = notes
         self._parameters = Parameters(parameters)
         self._references = References()
@@ -58,6 +59,7 @@ class SceneTree:
         self.files.append(path)
         self._open.append(path)
         node = parsed(path, label)
+        self.version = self.version or node.get("version", "").strip()
         holder = Plugin("", "", "", "", label, is_old(node, label), (path.parent, *folders))
         self._element(node, holder, depth)
         self._open.pop()
