@@ -14,6 +14,7 @@ from pathlib import Path
 from unittest import mock
 
 import jsonschema
+from PIL import Image as Picture
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "configs"))
@@ -111,6 +112,18 @@ class CommandTest(unittest.TestCase):
         self.assertEqual((config["max_bounces"], config["environment"]), (3, [1, 2, 3]))
         self.assertRegex(result.stdout, "(?m)^light +a sky of one radiance$")
         self.assertIn("for Mitsuba's XML", self.run_import(scene, self.out / "b.glb", "--define", "a=1").stderr)
+
+    def test_all_files_are_named(self) -> None:
+        """Whoever opens them: XML that is included, an image, and none of what lies beside them."""
+        (self.folder / "lamp.xml").write_text('<scene version="3.0.0"><emitter type="constant"/></scene>')
+        (self.folder / "other.xml").write_text(MITSUBA)
+        Picture.new("RGB", (2, 2), (9, 8, 7)).save(self.folder / "a.png")
+        texture = '<texture type="bitmap" name="reflectance"><string name="filename" value="a.png"/></texture>'
+        self.scene.write_text(MITSUBA.replace('<rgb name="reflectance" value="0.8, 0.1, 0.1"/>', texture)
+                              .replace("<bsdf", '<include filename="lamp.xml"/><bsdf', 1))
+        self.assertEqual(self.run_import(self.scene, self.out / "room.glb").stderr, "")
+        source = Glb.read(self.out / "room.glb").document["asset"]["extras"]["source"]
+        self.assertEqual([file["name"] for file in source["files"]], ["a.png", "lamp.xml", "meshes/sail.obj", "scene.xml"])
 
     def test_definitions(self) -> None:
         self.assertEqual(self.run_import(self.scene, self.out / "room.glb", "--define", "depth=9").returncode, 0)
