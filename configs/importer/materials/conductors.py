@@ -6,7 +6,7 @@ import numpy as np
 
 from importer.materials import fresnel, limits, metals, parameters
 from importer.materials.roughness import mitsuba_roughness
-from importer.materials.simple import strength_and_colour
+from importer.materials.simple import mirror, strength_and_colour
 from importer.problems import ImportProblem, Notes
 from importer.scene import BLACK, WHITE, Colour, Material, Number, Rgb
 
@@ -48,8 +48,6 @@ def conductor_of_reflectance(name: str, reflectance: Colour, alpha: Number, note
 
 def exact_mirror(name: str, reflectance: Colour, alpha: Number, notes: Notes, where: str) -> Material:
     """Mitsuba's conductor of the material "none", which reflects all at every angle."""
-    from importer.materials.simple import mirror
-
     return mirror(name, reflectance, notes, where, alpha)
 
 

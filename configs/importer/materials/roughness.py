@@ -67,7 +67,7 @@ def note_distribution(name: str, notes: Notes, where: str) -> None:
     Beckmann's alpha is taken as it is: then both distributions have the same density 1/(pi alpha^2) of microfacets that
     face the normal, so that the middle of a highlight is as bright as in the source, and GGX's has the wider skirt.
     Mitsuba's masking and shadowing is the product of both directions' (MicrofacetDistribution::G), glTF's height-correlated.
-    Phong's distribution, of the older Mitsuba, is parametrised by the same alpha there (MicrofacetDistribution::computePhongExponent)."""
+    Phong's distribution, of the older Mitsuba, has the same alpha there (MicrofacetDistribution::computePhongExponent)."""
     if name == "beckmann":
         notes.approximated("Beckmann's microfacets as GGX's of the same alpha, which have a wider skirt", where)
     elif name in ("phong", "as"):

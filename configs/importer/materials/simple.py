@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from importer.materials import limits, parameters
+from importer.materials.roughness import mitsuba_roughness
 from importer.problems import ImportProblem, Notes
 from importer.scene import BLACK, WHITE, Colour, Material, Number, Texture
 
@@ -34,8 +35,6 @@ def diffuse_transmitter(name: str, reflectance: Colour, transmittance: Colour, n
 def mirror(name: str, reflectance: Colour, notes: Notes, where: str, alpha: Number = 0.0) -> Material:
     """The same reflectance at all angles. White is a metal of F0 1. Otherwise KHR_materials_specular over an index of 0
     has F0 = colour times strength and F90 = strength, which is the same where the reflectance is grey."""
-    from importer.materials.roughness import mitsuba_roughness
-
     reflectance = limits.reflectance(reflectance, "the reflectance of a mirror", notes, where)
     roughness = mitsuba_roughness(limits.checked_number(alpha, "alpha", where))
     if parameters.is_constant(reflectance, 1.0):
@@ -68,8 +67,8 @@ def masked(material: Material, opacity: Number, notes: Notes, where: str) -> Mat
     if isinstance(opacity, Texture) and not parameters.is_grey(opacity):
         notes.approximated("a coloured opacity as the mean of its channels", where)
     opacity = limits.opacity(opacity, notes, where)
-    if parameters.is_constant(material.opacity, 1.0):
-        return replace(material, opacity=opacity)
+    if not isinstance(material.opacity, Texture):
+        return replace(material, opacity=parameters.scaled_number(opacity, material.opacity) if material.opacity else 0.0)
     return replace(material, opacity=parameters.combine_numbers(material.opacity, opacity, lambda a, b: a * b))
 
 
