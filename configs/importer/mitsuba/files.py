@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Sequence
+from typing import Iterator, Sequence
 
 from importer.problems import ImportProblem
 
@@ -26,6 +27,14 @@ class SceneFolder:
         if not path or not path.is_dir():
             raise ImportProblem(f"{where}: there is no folder \"{name[:200]}\" in the scene's folder")
         return path
+
+    @contextmanager
+    def reading(self, where: str) -> Iterator[None]:
+        """What a reader of meshes or images says of a file, together with the element that names the file."""
+        try:
+            yield
+        except ImportProblem as problem:
+            raise ImportProblem(f"{where}: {str(problem).replace(f'{self.root}/', '')}") from problem
 
     def _found(self, name: str, folders: Sequence[Path], where: str) -> Path | None:
         relative = name.strip().replace("\\", "/")  # scenes from Windows

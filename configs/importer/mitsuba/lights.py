@@ -17,7 +17,8 @@ from importer.scene import BLACK, Light, LightKind, Rgb, Scene, Sky
 # at +z and its right half at -x (envmap.cpp of 0.6, direction_to_uv of 3): half a turn about +y.
 _MITSUBA_FROM_SKY = np.diag([-1.0, 1.0, -1.0])
 _PLAIN = ("sampling_weight", "mis_compensation", "cache")
-_NO_COUNTERPART = {"sun", "sky", "sunsky", "timed_sunsky", "avg_sunsky", "projector", "collimated", "directionalarea", "volumelight"}
+_NO_COUNTERPART = {"sun", "sky", "sunsky", "timed_sunsky", "avg_sunsky", "projector", "collimated", "directionalarea",
+                   "volumelight"}
 EMITTERS = ("area", "point", "spot", "directional", "constant", "envmap")
 
 
@@ -117,7 +118,9 @@ def _environment_map(emitter: Plugin, folder: SceneFolder, notes: Notes) -> Sky:
     scale = emitter.number("scale", 1.0)
     if scale < 0:
         raise ImportProblem(f"{emitter.where}: its scale is {scale:g}; a light cannot be negative")
-    return Sky(image=load_radiance(path), scale=(scale, scale, scale), to_world=_rotation(emitter) @ _MITSUBA_FROM_SKY)
+    with folder.reading(emitter.where):
+        image = load_radiance(path)
+    return Sky(image=image, scale=(scale, scale, scale), to_world=_rotation(emitter) @ _MITSUBA_FROM_SKY)
 
 
 def _rotation(emitter: Plugin) -> np.ndarray:

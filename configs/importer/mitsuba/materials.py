@@ -10,20 +10,18 @@ from importer.materials.indices import named_index
 from importer.mitsuba.colours import Use
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.textures import TextureReader
+from importer.mitsuba.values import numbers
 from importer.problems import ImportProblem, Notes
 from importer.scene import Material, Number, Rgb
 
-_SIMPLE = ("diffuse", "roughdiffuse", "conductor", "roughconductor", "dielectric", "roughdielectric", "thindielectric", "plastic",
-           "roughplastic", "phong", "principled", "principledthin", "difftrans", "null")
-_AROUND = ("twosided", "mask", "bumpmap", "normalmap", "coating", "roughcoating", "blendbsdf", "mixturebsdf")
-BSDFS = _SIMPLE + _AROUND
-NO_COUNTERPART = {"ward", "hk", "irawan", "rmbrdf", "measured", "measured_polarized", "hair", "circular", "polarizer", "retarder",
-                  "pplastic", "dipolebrdf", "sssbrdf", "openpbr", "neuralbsdf"}
+NO_COUNTERPART = {"ward", "hk", "irawan", "rmbrdf", "measured", "measured_polarized", "hair", "circular", "polarizer",
+                  "retarder", "pplastic", "dipolebrdf", "sssbrdf"}
 # Of these Mitsuba lights the front alone where no twosided is around them.
 _ONE_SIDED = {"diffuse", "roughdiffuse", "conductor", "roughconductor", "plastic", "roughplastic", "phong"}
 _PLAIN = ("sample_visible", "use_fast_approx", "unused")
 _SAMPLING = ("main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate",
-             "specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate")
+             "specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
+             "diffuse_transmittance_sampling_rate")
 
 
 @dataclass
@@ -43,6 +41,8 @@ class MaterialReader:
 
     def _read(self, bsdf: Plugin, name: str, is_two_sided: bool) -> Material:
         bsdf.ignore(*_PLAIN)
+        if bsdf.type == "twosided":
+            return self._twosided(bsdf, name)
         if bsdf.type in _AROUND:
             return self._around(bsdf, name, is_two_sided)
         if bsdf.type in NO_COUNTERPART:
@@ -53,21 +53,17 @@ class MaterialReader:
         if bsdf.type not in _SIMPLE:
             raise ImportProblem(f"{bsdf.where}: is no bsdf of Mitsuba's; known are {', '.join(BSDFS)}")
         if bsdf.type in _ONE_SIDED and not is_two_sided:
-            self.notes.approximated("surfaces that Mitsuba lights on their front alone, without twosided: on both sides", bsdf.where)
-        return getattr(self, f"_{bsdf.type.removeprefix('rough') if bsdf.type != 'roughdiffuse' else 'roughdiffuse'}")(bsdf, name)
+            self.notes.approximated("surfaces that Mitsuba lights on their front alone, without twosided: on both sides",
+                                    bsdf.where)
+        return _SIMPLE[bsdf.type](self, bsdf, name)
 
     def _around(self, bsdf: Plugin, name: str, is_two_sided: bool) -> Material:
         """Models that hold others."""
-        if bsdf.type == "twosided":
-            return self._twosided(bsdf, name)
         inner = [self.read(child, name, is_two_sided) for child in bsdf.all_of("bsdf")]
         expected = {"blendbsdf": 2, "mixturebsdf": len(inner) or 1}.get(bsdf.type, 1)
         if len(inner) != expected:
             raise ImportProblem(f"{bsdf.where}: holds {len(inner)} <bsdf>; {expected} would be right")
-        readers: dict[str, Callable[[Plugin, list[Material]], Material]] = {
-            "mask": self._mask, "bumpmap": self._bumpmap, "normalmap": self._normalmap, "coating": self._coating,
-            "roughcoating": self._coating, "blendbsdf": self._blend, "mixturebsdf": self._mixture}
-        return replace(readers[bsdf.type](bsdf, inner), name=name)
+        return replace(_AROUND[bsdf.type](self, bsdf, inner), name=name)
 
     def _twosided(self, bsdf: Plugin, name: str) -> Material:
         inner = bsdf.all_of("bsdf")
@@ -96,8 +92,8 @@ class MaterialReader:
         alpha = self._alpha(bsdf) if bsdf.type == "roughcoating" else 0.0
         sigma_a = self.textures.rgb(bsdf, "sigma_a", 0.0, Use.INDEX)
         specular = self.textures.colour(bsdf, "specular_reflectance", 1.0)
-        return models.coated(inner[0], self._relative_index(bsdf, "bk7"), alpha, specular, bsdf.number("thickness", 1.0), sigma_a,
-                             self.notes, bsdf.where)
+        return models.coated(inner[0], self._relative_index(bsdf, "bk7"), alpha, specular, bsdf.number("thickness", 1.0),
+                             sigma_a, self.notes, bsdf.where)
 
     def _blend(self, bsdf: Plugin, inner: list[Material]) -> Material:
         """A weight of 0 is the first alone (BlendBSDF::eval)."""
@@ -105,7 +101,7 @@ class MaterialReader:
 
     def _mixture(self, bsdf: Plugin, inner: list[Material]) -> Material:
         """Weights that sum to less than 1 take light away in Mitsuba (MixtureBSDF)."""
-        weights = [float(word) for word in _weights(bsdf, len(inner))]
+        weights = _weights(bsdf, len(inner))
         if sum(weights) < 1.0 - 1e-4:
             self.notes.approximated("a mixture whose weights sum to less than 1 as one of weights that sum to 1", bsdf.where)
         material, total = inner[0], weights[0]
@@ -115,7 +111,7 @@ class MaterialReader:
         return material
 
     def _diffuse(self, bsdf: Plugin, name: str) -> Material:
-        key = "diffuse_reflectance" if bsdf.has("diffuse_reflectance") or bsdf.child("diffuse_reflectance") else "reflectance"
+        key = "diffuse_reflectance" if bsdf.gives("diffuse_reflectance") else "reflectance"  # older versions' name
         return models.diffuse(name, self.textures.colour(bsdf, key, 0.5), self.notes, bsdf.where)
 
     def _roughdiffuse(self, bsdf: Plugin, name: str) -> Material:
@@ -128,14 +124,15 @@ class MaterialReader:
         reflectance = self.textures.colour(bsdf, "specular_reflectance", 1.0)
         material = bsdf.string("material", "Cu" if bsdf.is_old else "none")
         outside = self._index(bsdf, "ext_eta", "air") if bsdf.is_old else 1.0
-        is_measured = any(bsdf.has(key) or bsdf.child(key) for key in ("eta", "k"))
+        is_measured = bsdf.gives("eta") or bsdf.gives("k")
         if material.lower() == "none" and not is_measured:
             return models.exact_mirror(name, reflectance, alpha, self.notes, bsdf.where)
         if material.lower() == "none" or is_measured and not bsdf.is_old:
             eta, k = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
         else:
             eta, k = metals.named_metal(material, bsdf.where)
-        eta, k = (_over(self.textures.rgb(bsdf, key, value, Use.INDEX), outside) for key, value in (("eta", eta), ("k", k)))
+        eta = _over(self.textures.rgb(bsdf, "eta", eta, Use.INDEX), outside)
+        k = _over(self.textures.rgb(bsdf, "k", k, Use.INDEX), outside)
         return models.conductor(name, eta, k, reflectance, alpha, self.notes, bsdf.where)
 
     def _dielectric(self, bsdf: Plugin, name: str) -> Material:
@@ -175,26 +172,26 @@ class MaterialReader:
         bsdf.ignore(*_SAMPLING)
         names = ("metallic", "spec_tint", "spec_trans", "clearcoat", "clearcoat_gloss", "anisotropic", "sheen", "sheen_tint",
                  "flatness")
-        numbers = {key: self.textures.number(bsdf, key, 0.0) for key in names}
+        amounts = {key: self.textures.number(bsdf, key, 0.0) for key in names}
         if bsdf.has("eta") and bsdf.has("specular"):
             raise ImportProblem(f"{bsdf.where}: has both \"eta\" and \"specular\"; one of them is right")
         eta = bsdf.number("eta", 1.5) if bsdf.has("eta") else models.index_of_specular(bsdf.number("specular", 0.5))
         return models.principled(name, self.textures.colour(bsdf, "base_color", 0.5), self.notes, bsdf.where, eta=eta,
-                                 roughness=self.textures.number(bsdf, "roughness", 0.5), **numbers)
+                                 roughness=self.textures.number(bsdf, "roughness", 0.5), **amounts)
 
     def _principledthin(self, bsdf: Plugin, name: str) -> Material:
         bsdf.ignore(*_SAMPLING)
         names = ("spec_tint", "spec_trans", "anisotropic", "sheen", "sheen_tint", "flatness", "diff_trans")
-        numbers = {key: self.textures.number(bsdf, key, 0.0) for key in names}
+        amounts = {key: self.textures.number(bsdf, key, 0.0) for key in names}
         return models.principled(name, self.textures.colour(bsdf, "base_color", 0.5), self.notes, bsdf.where, is_thin=True,
-                                 eta=bsdf.number("eta", 1.5), roughness=self.textures.number(bsdf, "roughness", 0.5), **numbers)
+                                 eta=bsdf.number("eta", 1.5), roughness=self.textures.number(bsdf, "roughness", 0.5),
+                                 **amounts)
 
     def _alpha(self, bsdf: Plugin) -> Number:
         """Beckmann's distribution is the default, and an alpha of 0.1 (MicrofacetDistribution)."""
         roughness.note_distribution(bsdf.string("distribution", "beckmann").lower(), self.notes, bsdf.where)
         alpha = self.textures.number(bsdf, "alpha", 0.1)
-        along = [self.textures.number(bsdf, key, alpha) if bsdf.has(key) or bsdf.child(key) else alpha
-                 for key in ("alpha_u", "alpha_v")]
+        along = [self.textures.number(bsdf, key, 0.1) if bsdf.gives(key) else alpha for key in ("alpha_u", "alpha_v")]
         return roughness.isotropic_alpha(along[0], along[1], self.notes, bsdf.where)
 
     def _index(self, bsdf: Plugin, key: str, default: str) -> float:
@@ -211,13 +208,26 @@ class MaterialReader:
         return self._index(bsdf, "int_ior", default) / outside
 
 
+_SIMPLE: dict[str, Callable[[MaterialReader, Plugin, str], Material]] = {
+    "diffuse": MaterialReader._diffuse, "roughdiffuse": MaterialReader._roughdiffuse,
+    "conductor": MaterialReader._conductor, "roughconductor": MaterialReader._conductor,
+    "dielectric": MaterialReader._dielectric, "roughdielectric": MaterialReader._dielectric,
+    "thindielectric": MaterialReader._thindielectric, "plastic": MaterialReader._plastic,
+    "roughplastic": MaterialReader._plastic, "phong": MaterialReader._phong, "difftrans": MaterialReader._difftrans,
+    "null": MaterialReader._null, "principled": MaterialReader._principled,
+    "principledthin": MaterialReader._principledthin}
+_AROUND: dict[str, Callable[[MaterialReader, Plugin, list[Material]], Material]] = {
+    "mask": MaterialReader._mask, "bumpmap": MaterialReader._bumpmap, "normalmap": MaterialReader._normalmap,
+    "coating": MaterialReader._coating, "roughcoating": MaterialReader._coating, "blendbsdf": MaterialReader._blend,
+    "mixturebsdf": MaterialReader._mixture}
+BSDFS = (*_SIMPLE, "twosided", *_AROUND)
+
+
 def _over(values: Rgb, outside: float) -> Rgb:
     return values[0] / outside, values[1] / outside, values[2] / outside
 
 
 def _weights(bsdf: Plugin, count: int) -> list[float]:
-    from importer.mitsuba.values import numbers
-
     weights = numbers(bsdf.string("weights"), bsdf.where)
     if len(weights) != count or min(weights) < 0 or sum(weights) <= 0:
         raise ImportProblem(f"{bsdf.where}: its weights must be {count} numbers of 0 or more, one for each <bsdf>")

@@ -40,7 +40,8 @@ class PartReader:
             self.notes.refuse(f"a shape of type \"{shape.type}\"", shape.where)
             return
         elif shape.type != "shapegroup":  # which shows nothing but through its instances
-            raise ImportProblem(f"{shape.where}: is no shape of Mitsuba's; known are {', '.join((*FILES, *ANALYTIC, *GROUPS))}")
+            known = ", ".join((*FILES, *ANALYTIC, *GROUPS))
+            raise ImportProblem(f"{shape.where}: is no shape of Mitsuba's; known are {known}")
         if shape.type != "shapegroup":
             shape.note_rest(self.notes)
 
@@ -56,7 +57,8 @@ class PartReader:
 
     def _single(self, shape: Plugin, outer: np.ndarray) -> None:
         if len(self.parts) >= _MAX_PARTS:
-            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes and instances, the most that are read")
+            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
+                                "are read")
         geometry = self.shapes.read(shape)
         material = self._material(shape)
         if material.opacity == 0.0 and material.radiance == BLACK:

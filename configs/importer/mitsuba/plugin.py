@@ -44,6 +44,10 @@ class Plugin:
     def has(self, name: str) -> bool:
         return name in self.properties
 
+    def gives(self, name: str) -> bool:
+        """Whether a parameter is given, be it as a value or as an object."""
+        return self.has(name) or any(child.name == name for child in self.children)
+
     def get(self, name: str) -> Property | None:
         self._used.add(name)
         return self.properties.get(name)

@@ -21,8 +21,8 @@ from importer.scene import Mesh
 
 FILES = ("obj", "ply", "serialized")
 ANALYTIC = ("sphere", "rectangle", "cube", "disk", "cylinder")
-NO_COUNTERPART = {"hair", "heightfield", "deformable", "bsplinecurve", "linearcurve", "sdfgrid", "ellipsoids", "ellipsoidsmesh",
-                  "animatedinstance", "ply_sequence"}
+NO_COUNTERPART = {"hair", "heightfield", "deformable", "bsplinecurve", "linearcurve", "sdfgrid", "ellipsoids",
+                  "ellipsoidsmesh", "animatedinstance"}
 _FILE_PLAIN = ("silhouette_sampling_weight", "collapse", "load_materials", "srgb", "name")
 
 
@@ -47,7 +47,8 @@ class ShapeReader:
             geometry = self._file(shape, to_world)
         else:
             readers: dict[str, Callable[[Plugin, np.ndarray], Geometry]] = {
-                "sphere": self._sphere, "cylinder": self._cylinder, "rectangle": self._flat, "disk": self._flat, "cube": self._cube}
+                "sphere": self._sphere, "cylinder": self._cylinder, "rectangle": self._flat, "disk": self._flat,
+                "cube": self._cube}
             geometry = readers[shape.type](shape, to_world)
         if shape.boolean("flip_normals", False):
             geometry.mesh = self._variant(geometry.mesh, "flipped", orient.flipped)
@@ -60,16 +61,15 @@ class ShapeReader:
     def _file(self, shape: Plugin, to_world: np.ndarray) -> Geometry:
         _check_volume(to_world, shape)
         path = self.folder.find(shape.string("filename"), shape.folders, shape.where)
-        mesh = self._from_file(shape, path)
-        smoothing = shape.number("max_smooth_angle", -1.0)
-        if smoothing >= 0:
-            self.notes.approximated("max_smooth_angle as face normals" if smoothing < 90 else "max_smooth_angle as smooth normals",
-                                    shape.where)
+        with self.folder.reading(shape.where):
+            mesh = self._from_file(shape, path)
+        is_flat = shape.boolean("face_normals", False)
+        if shape.has("max_smooth_angle") and not is_flat:
+            is_flat = self._is_flat_by_angle(shape)
             mesh = self._variant(mesh, "flat", orient.flat)
-        has_own_normals = mesh.normals is not None
-        if shape.boolean("face_normals", 0 <= smoothing < 90):
-            mesh, has_own_normals = self._variant(mesh, "flat", orient.flat), False
-        elif has_own_normals:
+        if is_flat:
+            mesh = self._variant(mesh, "flat", orient.flat)
+        elif mesh.normals is not None:
             return Geometry(self._variant(mesh, "fronts", orient.fronts_by_normals), to_world)
         else:
             mesh = self._variant(mesh, "smooth", orient.smooth)
@@ -78,6 +78,13 @@ class ShapeReader:
         if mirrors(to_world):
             mesh = self._variant(mesh, "flipped", orient.flipped)
         return Geometry(mesh, to_world)
+
+    def _is_flat_by_angle(self, shape: Plugin) -> bool:
+        """0.6 makes new vertex normals where triangles meet at less than an angle, and creases elsewhere."""
+        is_flat = shape.number("max_smooth_angle", 0.0) < 60.0
+        what = "max_smooth_angle below 60 degrees as face normals" if is_flat else "max_smooth_angle as smooth everywhere"
+        self.notes.approximated(what, shape.where)
+        return is_flat
 
     def _from_file(self, shape: Plugin, path: Path) -> Mesh:
         if shape.type == "serialized":

@@ -5,11 +5,11 @@ Mitsuba's v runs downwards in a picture: its first row lies at v = 0 (bitmap.cpp
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
-from importer.images.load import load_image, load_radiance
+from importer.images import bake
+from importer.images.load import load_image, load_scaled
 from importer.materials.parameters import mean_rgb, scaled
 from importer.mitsuba.colours import SPECTRA, Use, rgb_of_plugin, rgb_of_property
 from importer.mitsuba.files import SceneFolder
@@ -23,9 +23,8 @@ TEXTURES = {
     "scale": "",
 }
 _WRAPS = {"repeat": Wrap.REPEAT, "mirror": Wrap.MIRRORED, "clamp": Wrap.CLAMP}
-_RADIANCE = (".exr", ".hdr", ".rgbe", ".pfm")
 _BITMAP_PLAIN = ("max_anisotropy", "cache", "format", "accel")
-_WITHOUT_COUNTERPART = {"gridtexture", "wireframe", "curvature", "vertexcolors", "mesh_attribute", "volume", "exrtexture", "ldrtexture"}
+_WITHOUT_COUNTERPART = {"gridtexture", "wireframe", "curvature", "vertexcolors", "mesh_attribute", "volume"}
 
 
 @dataclass
@@ -34,8 +33,7 @@ class TextureReader:
 
     folder: SceneFolder
     notes: Notes
-    _images: dict[tuple[str, bool | None], Image] = field(default_factory=dict)
-    _bright: dict[Path, tuple[Image, float]] = field(default_factory=dict)
+    _images: dict[tuple[str, bool | None, bool], tuple[Image, float]] = field(default_factory=dict)
     _textures: dict[tuple[int, Use], Colour] = field(default_factory=dict)
 
     def colour(self, plugin: Plugin, name: str, default: Rgb | float, use: Use = Use.REFLECTANCE) -> Colour:
@@ -104,23 +102,13 @@ class TextureReader:
         if plugin.get("channel"):
             self.notes.refuse("one channel of a picture (\"channel\" of a bitmap)", plugin.where)
         path = self.folder.find(plugin.string("filename"), plugin.folders, plugin.where)
-        is_bright = use is Use.EMISSION and path.suffix.lower() in _RADIANCE
-        image, scale = self._bright_image(path) if is_bright else (self._image(path, is_linear), 1.0)
-        return Texture(image, _image_from_uv(plugin), _wraps(plugin, self.notes), _is_nearest(plugin), (scale,) * 3)
-
-    def _image(self, path: Path, is_linear: bool | None) -> Image:
-        key = str(path), is_linear
+        key = str(path), is_linear, use is Use.EMISSION  # radiance above 1 is kept by a scale, reflectances end at 1
         if key not in self._images:
-            self._images[key] = load_image(path, is_linear)
-        return self._images[key]
-
-    def _bright_image(self, path: Path) -> tuple[Image, float]:
-        """Radiance above 1 goes into the texture's scale, since an image ends at 1."""
-        if path not in self._bright:
-            pixels = np.maximum(load_radiance(path).astype(np.float64), 0.0)
-            scale = max(1.0, float(pixels.max()))
-            self._bright[path] = Image(path.stem, pixels / scale), scale
-        return self._bright[path]
+            with self.folder.reading(plugin.where):
+                is_light = use is Use.EMISSION
+                self._images[key] = load_scaled(path, is_linear) if is_light else (load_image(path, is_linear), 1.0)
+        image, scale = self._images[key]
+        return Texture(image, _image_from_uv(plugin), _wraps(plugin, self.notes), _is_nearest(plugin), (scale,) * 3)
 
     def _checkerboard(self, plugin: Plugin, use: Use) -> Colour:
         """color0 where u and v are both in the first half of a period, or both in the second (Checkerboard::eval)."""
@@ -130,8 +118,8 @@ class TextureReader:
             colours = [colour.scale if isinstance(colour, Texture) else colour for colour in colours]
         a, b = np.array(colours, float)
         scale = max(1.0, float(a.max()), float(b.max()))
-        pixels = np.array([[a, b], [b, a]]) / scale
-        return Texture(Image("checkerboard", pixels), _image_from_uv(plugin), is_nearest=True, scale=(scale,) * 3)
+        image = bake.checkerboard("checkerboard", tuple(a / scale), tuple(b / scale))
+        return Texture(image, _image_from_uv(plugin), is_nearest=True, scale=(scale, scale, scale))
 
     def _scaled(self, plugin: Plugin, use: Use) -> Colour:
         """0.6's: a texture, or a colour under the name "value", times "scale"."""
@@ -159,7 +147,8 @@ def _is_nearest(plugin: Plugin) -> bool:
     """All other filters differ in how they blur what is far away; here many samples do."""
     name = plugin.string("filter_type", "bilinear").lower()
     if name not in ("nearest", "bilinear", "trilinear", "ewa"):
-        raise ImportProblem(f"{plugin.where}: its \"filter_type\" is \"{name}\"; nearest, bilinear, trilinear and ewa are known")
+        raise ImportProblem(f"{plugin.where}: its \"filter_type\" is \"{name}\"; nearest, bilinear, trilinear and ewa are "
+                            "known")
     return name == "nearest"
 
 
