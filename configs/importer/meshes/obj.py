@@ -49,6 +49,9 @@ def _rows(block: Block, kind: str, width: int) -> np.ndarray:
     short = numbers.per_line < least
     if short.any():
         raise block.problem(numbers.lines[short][0], f"'{kind}' takes {least} numbers, not {numbers.per_line[short][0]}")
+    if not np.isfinite(numbers.values).all():
+        line = numbers.line_of_token(int(np.argmin(np.isfinite(numbers.values))))
+        raise block.problem(line, f"'{kind}' is followed by a number that is not finite")
     if (numbers.per_line == width).all():
         return numbers.values.reshape(-1, width)
     last = np.arange(width) < numbers.per_line[:, None]
