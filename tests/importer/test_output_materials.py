@@ -126,6 +126,12 @@ class MaterialsTest(unittest.TestCase):
             found = glb.texels(extensions[f"KHR_materials_{name}"][f"{key}Texture"])[0]
             np.testing.assert_allclose(found[:, 0], wanted, atol=1e-5)
 
+    def test_one_image_at_two_scales(self) -> None:
+        image = bytes_image([[[255] * 3]])
+        glb = self.glb(Material("a", roughness=Texture(image)), Material("b", roughness=Texture(image, scale=(0.5, 0.5, 0.5))))
+        found = [glb.texels(glb.material(name)["pbrMetallicRoughness"]["metallicRoughnessTexture"])[0, 0, 1] for name in "ab"]
+        np.testing.assert_allclose(found, [1, 0.5], atol=1e-5)
+
     def test_opacity(self) -> None:
         mask = Texture(bytes_image([[[255] * 3, [0] * 3]], "mask"))
         said, _, _ = self.material(opacity=0.25)
