@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from importer.meshes.orient import unit
+from importer.meshes.orient import area_vectors, smooth, unit
+from importer.problems import ImportProblem
 from importer.scene import Mesh
 
 _FINEST = 32
@@ -32,7 +33,11 @@ def bilinear(corners: np.ndarray, normals: np.ndarray | None = None, uvs: np.nda
     if np.einsum("ij,ij->", geometric, shading) < 0:
         triangles = triangles[:, ::-1].copy()
     mesh = Mesh(weights @ points, triangles, shading, weights @ coordinates, "bilinear")
-    mesh.triangles = triangles[_has_area(mesh)]
+    mesh.triangles = triangles[area_vectors(mesh).any(axis=1)]
+    if len(mesh.triangles) == 0:
+        raise ImportProblem("a bilinear patch has no area; its corners have to span one")
+    missing = ~shading.any(axis=1)  # at a side that is a point
+    mesh.normals[missing] = smooth(mesh).normals[missing]
     return mesh
 
 
@@ -52,8 +57,3 @@ def _grid(cells: int) -> np.ndarray:
     here = (row[:, None] * (cells + 1) + row).reshape(-1)
     above = here + cells + 1
     return np.concatenate([np.stack([here, here + 1, above + 1], axis=1), np.stack([here, above + 1, above], axis=1)])
-
-
-def _has_area(mesh: Mesh) -> np.ndarray:
-    a, b, c = (mesh.positions[mesh.triangles[:, k]] for k in range(3))
-    return np.cross(b - a, c - a).any(axis=1)
