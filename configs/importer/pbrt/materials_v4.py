@@ -22,7 +22,8 @@ def _coated_diffuse(reader: Reader) -> Material:
     thickness, depth = reader.one_number("thickness", 0.01), reader.parameters.integer("maxdepth", 10)
     reader.one_number("g", 0.0)  # the direction of scattering by the albedo, which is noted where it is not 0
     reader.parameters.without_effect(*_OF_THE_WALK)
-    return models.coated_diffuse(reader.name, reflectance, index, alpha, thickness, albedo, depth, reader.notes, reader.where)
+    return models.coated_diffuse(reader.name, reflectance, index, alpha, thickness, albedo, depth, reader.notes,
+                                 reader.where)
 
 
 def _conductor(reader: Reader) -> Material:
@@ -31,7 +32,8 @@ def _conductor(reader: Reader) -> Material:
         eta, k = reader.metal("eta", "k")
         return models.conductor(reader.name, eta, k, WHITE, alpha, reader.notes, reader.where)
     _check_reflectance_alone(reader, "eta", "k")
-    return models.conductor_of_reflectance(reader.name, reader.colour("reflectance", 0.5), alpha, reader.notes, reader.where)
+    reflectance = reader.colour("reflectance", 0.5)
+    return models.conductor_of_reflectance(reader.name, reflectance, alpha, reader.notes, reader.where)
 
 
 def _coated_conductor(reader: Reader) -> Material:
@@ -55,7 +57,8 @@ def _coated_conductor(reader: Reader) -> Material:
 def _check_reflectance_alone(reader: Reader, *others: str) -> None:
     for other in others:
         if reader.parameters.has(other):
-            raise ImportProblem(f'{reader.where}: a conductor has both "reflectance" and "{other}"; it must have one of them')
+            raise ImportProblem(f'{reader.where}: a conductor has both "reflectance" and "{other}"; it must have one of'
+                                " them")
 
 
 def _dielectric(reader: Reader) -> Material:
@@ -69,7 +72,8 @@ def _thin_dielectric(reader: Reader) -> Material:
 
 def _diffuse_transmission(reader: Reader) -> Material:
     factor = reader.one_number("scale", 1.0)
-    reflected, passed = (arithmetic.scaled(reader.colour(name, 0.25), factor) for name in ("reflectance", "transmittance"))
+    reflected, passed = (arithmetic.scaled(reader.colour(name, 0.25), factor)
+                         for name in ("reflectance", "transmittance"))
     return models.diffuse_transmitter(reader.name, reflected, passed, reader.notes, reader.where)
 
 

@@ -54,10 +54,10 @@ class _Reader:
         makers = materials_v4 if version == 4 else materials_v3
         materials = Materials(makers.MAKERS, makers.REFUSED, textures, spectra, notes, version)
         self._states = States(notes, version)
-        self._world = World(Shapes(folder, notes), materials, spectra, notes, version)
+        self._world = World(Shapes(folder, notes), materials, textures, spectra, notes, version)
         self._lights = Lights(spectra, notes, version)
         self._skies = Skies(folder, spectra, notes, version)
-        self._scene = Scene(path.name.split(".")[0], Camera(np.eye(4)))
+        self._scene = Scene(path.name.split(".")[0], Camera(np.eye(4)), source_version=str(version))
         self._options: dict[str, Statement] = {}
         self._camera_from_world = np.eye(4)
         self._is_world = False

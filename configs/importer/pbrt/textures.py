@@ -7,7 +7,7 @@ from typing import Callable
 
 import numpy as np
 
-from importer.images.load import load_image
+from importer.images.load import load_scaled
 from importer.materials import parameters as arithmetic
 from importer.pbrt.parameters import Parameters
 from importer.pbrt.source import Folder
@@ -32,7 +32,7 @@ class Textures:
         self._spectra = spectra
         self._notes = notes
         self._version = version
-        self._images: dict[tuple[object, ...], Image] = {}
+        self._images: dict[tuple[object, ...], tuple[Image, float]] = {}
         self._made: dict[Definition, Colour | Number] = {}
         self._being_made: list[Definition] = []
 
@@ -55,13 +55,18 @@ class Textures:
 
     def normal_map(self, name: str, where: str) -> Texture:
         """pbrt-v4 looks a normal map up by u and v themselves, in the frame of dp/du and dp/dv (NormalMap)."""
-        image = self._image(name, True, where)
+        image, _ = self._image(name, True, where)
         return Texture(image, np.eye(3)[:2])
+
+    def emission(self, name: str, where: str) -> Texture:
+        """The radiance of a lamp by its u and v, the nearest texel (DiffuseAreaLight::L)."""
+        image, factor = self._image(name, None, where)
+        return Texture(image, np.eye(3)[:2], is_nearest=True, scale=(factor, factor, factor))
 
     def _named(self, name: str, table: dict[str, Definition], parameters: Parameters, role: str) -> Colour | Number:
         if name not in table:
-            raise ImportProblem(f'{parameters.place}: the parameter "{role}" of {parameters.what} names the texture "{name}";'
-                                " no texture of that type has been defined")
+            raise ImportProblem(f'{parameters.place}: the parameter "{role}" of {parameters.what} names the texture'
+                                f' "{name}"; no texture of that type has been defined')
         definition = table[name]
         if definition not in self._made:
             if definition in self._being_made or len(self._being_made) > _DEEPEST:
@@ -144,7 +149,7 @@ class Textures:
             raise ImportProblem(f'{where}: there is no wrap mode "{wrap}"; it must be {", ".join(_WRAPS)}')
         if wrap in ("black", "octahedralsphere"):
             self._notes.approximated(f'textures that continue as "{wrap}" by their border\'s texels', where)
-        image, exponent = self._decoded(parameters, is_number)
+        image, brightest, exponent = self._decoded(parameters, is_number)
         factor = parameters.number("scale", 1.0)
         parameters.without_effect(*_OF_THE_FILTER)
         texture = Texture(image, _image_from_uv(self._st_from_uv(parameters)), (_WRAPS[wrap], _WRAPS[wrap]))
@@ -152,14 +157,14 @@ class Textures:
             powered = arithmetic.map_colour(texture, lambda rgb: rgb ** exponent, ("power", exponent))
             assert isinstance(powered, Texture)
             texture = powered
-        scaled = replace(texture, scale=tuple(value * factor for value in texture.scale))
+        scaled = replace(texture, scale=tuple(value * factor * brightest for value in texture.scale))
         if parameters.flag("invert", False):
             return arithmetic.map_colour(scaled, lambda rgb: np.maximum(1 - rgb, 0), ("inverted", factor))
         return scaled
 
-    def _decoded(self, parameters: Parameters, is_number: bool) -> tuple[Image, float]:
-        """The image and the power of its values that is still to be taken (Image::Read: what is no PNG is decoded by its
-        type; v3: ImageTexture's "gamma", true for the formats of 8 bits)."""
+    def _decoded(self, parameters: Parameters, is_number: bool) -> tuple[Image, float, float]:
+        """The image, its factor, and the power of its values that is still to be taken (Image::Read: what is no PNG is
+        decoded by its type; v3: ImageTexture's "gamma", true for the formats of 8 bits)."""
         name = parameters.string("filename", "")
         where = str(parameters.place)
         is_png = name.lower().endswith(".png")
@@ -168,25 +173,21 @@ class Textures:
         if self._version == 3 and not parameters.flag("gamma", True):
             encoding = "linear"
         elif words and words[0] == "gamma" and len(words) == 2 and is_png:
-            return self._image(name, True, where, is_number), _exponent(words[1], parameters)
+            return *self._image(name, True, where, is_number), _exponent(words[1], parameters)
         elif encoding not in ("sRGB", "linear"):
-            raise ImportProblem(f'{where}: there is no encoding "{encoding}"; it must be sRGB, linear or gamma with a number')
+            raise ImportProblem(f'{where}: there is no encoding "{encoding}"; it must be sRGB, linear or gamma with a'
+                                " number")
         is_linear = encoding == "linear" and (is_png or self._version == 3)
-        return self._image(name, True if is_linear else None, where, is_number), 1.0
+        return *self._image(name, True if is_linear else None, where, is_number), 1.0
 
-    def _image(self, name: str, is_linear: bool | None, where: str, is_number: bool = False) -> Image:
+    def _image(self, name: str, is_linear: bool | None, where: str, is_number: bool = False) -> tuple[Image, float]:
+        """An image with values up to 1, and their factor."""
         path = self._folder.find(name, where)
         key = (path, is_linear, is_number)
         if key not in self._images:
-            image = load_image(path, is_linear)
-            self._images[key] = self._alpha(image) if is_number and self._version == 4 else image
+            image, factor = load_scaled(path, is_linear)
+            self._images[key] = (_alpha(image) if is_number and self._version == 4 else image), factor
         return self._images[key]
-
-    def _alpha(self, image: Image) -> Image:
-        """Of an image with transparency, pbrt-v4's numbers are the alphas, decoded as the colours are (MIPMap::Bilerp)."""
-        if image.pixels.shape[2] < 4 or image.pixels[:, :, 3].min() >= (255 if image.pixels.dtype == np.uint8 else 1.0):
-            return image
-        return Image(image.name, np.repeat(image.pixels[:, :, 3:4], 3, axis=2))
 
     def _st_from_uv(self, parameters: Parameters) -> np.ndarray:
         """pbrt's s and t, (3, 3) on its own u and v, which go upwards (TextureMapping2D::Create)."""
@@ -206,6 +207,13 @@ def _image_from_uv(st_from_uv: np.ndarray) -> np.ndarray:
     """From `Mesh`'s v, which goes downwards, to the image's: pbrt's row at t is that at 1 - t (ImageTexture::Evaluate)."""
     turned = np.array([[1.0, 0, 0], [0, -1, 1], [0, 0, 1]])
     return (turned @ st_from_uv @ turned)[:2]
+
+
+def _alpha(image: Image) -> Image:
+    """Of an image with transparency, pbrt-v4's numbers are the alphas, decoded as the colours are (MIPMap::Bilerp)."""
+    if image.pixels.shape[2] < 4 or image.pixels[:, :, 3].min() >= (255 if image.pixels.dtype == np.uint8 else 1.0):
+        return image
+    return Image(image.name, np.repeat(image.pixels[:, :, 3:4], 3, axis=2))
 
 
 def _product(first: Colour, second: Colour) -> Colour:

@@ -35,8 +35,8 @@ def version_of(statements: Iterable[Statement]) -> int:
         for version, word in _evidence(statement):
             found.setdefault(version, (word, statement.place))
         if len(found) == 2:
-            raise ImportProblem(f"{found[4][1]}: {found[4][0]} is of pbrt-v4 and {found[3][0]} of {found[3][1]} is of pbrt-v3;"
-                                " a scene must be of one version")
+            raise ImportProblem(f"{found[4][1]}: {found[4][0]} is of pbrt-v4, and {found[3][0]} of {found[3][1]} is of"
+                                " pbrt-v3; a scene must be of one version")
     return next(iter(found), 4)
 
 

@@ -7,9 +7,10 @@ from dataclasses import fields
 
 import numpy as np
 
-from importer.materials import models
+from importer.materials import colours, models
+from importer.materials import parameters as arithmetic
 from importer.meshes import orient
-from importer.pbrt.lights import emission, scaled
+from importer.pbrt.lights import emission
 from importer.pbrt.materials import Materials
 from importer.pbrt.materials_v3 import OVERRIDES
 from importer.pbrt.parameters import Parameters
@@ -18,8 +19,9 @@ from importer.pbrt.source import Place
 from importer.pbrt.spectra import Spectra
 from importer.pbrt.state import Definition, State
 from importer.pbrt.statements import Statement
+from importer.pbrt.textures import Textures
 from importer.problems import ImportProblem, Notes
-from importer.scene import Material, Mesh, Part, Texture
+from importer.scene import Colour, Material, Mesh, Part, Texture
 
 MOST_PARTS = 1_000_000
 
@@ -27,16 +29,19 @@ MOST_PARTS = 1_000_000
 class World:
     """Collects the parts of one scene."""
 
-    def __init__(self, shapes: Shapes, materials: Materials, spectra: Spectra, notes: Notes, version: int) -> None:
+    def __init__(self, shapes: Shapes, materials: Materials, textures: Textures, spectra: Spectra, notes: Notes,
+                 version: int) -> None:
         self.parts: list[Part] = []
         self._shapes = shapes
         self._materials = materials
+        self._textures = textures
         self._spectra = spectra
         self._notes = notes
         self._version = version
         self._objects: dict[str, list[Part]] = {}
         self._object: tuple[str, list[Part]] | None = None
         self._variants: dict[tuple[Mesh, str], Mesh] = {}
+        self._radiances: dict[Definition, Colour] = {}
 
     def begin_object(self, statement: Statement) -> None:
         if self._object is not None:
@@ -107,10 +112,8 @@ class World:
     def _shining(self, material: Material | None, light: Definition, kind: str, parameters: Parameters, mesh: Mesh,
                  state: State) -> Material:
         lamp = light.parameters
-        radiance = emission(self._spectra, lamp, "L", light.state.colour_space, self._version)
         both_sides = lamp.flag("twosided", False)
-        if self._version == 4 and lamp.string("filename", ""):
-            self._notes.refuse("an image that a surface emits", str(lamp.place))
+        radiance = self._radiance(light)
         power = lamp.number("power", -1.0) if self._version == 4 else -1.0
         if power > 0:
             area, count, are_alike = power_area(kind, parameters, mesh, state.to_world)
@@ -119,10 +122,34 @@ class World:
                                          str(parameters.place))
             if area <= 0:
                 raise ImportProblem(f"{parameters.place}: {parameters.what} has no area to which a power could be given")
-            radiance = scaled(radiance, count * power / (math.pi * area * (2 if both_sides else 1)))
+            sides = 2 if both_sides else 1
+            radiance = arithmetic.scaled(radiance, count * power / (math.pi * area * sides * self._luminance_of(lamp)))
         lamp.without_effect("nsamples", "samples")
         lamp.finish(self._notes)
         return self._materials.lamp(material, radiance, both_sides, str(lamp.place))
+
+    def _radiance(self, light: Definition) -> Colour:
+        """In v4 of an image, where there is one, times "scale"."""
+        lamp = light.parameters
+        if light not in self._radiances:
+            radiance: Colour = emission(self._spectra, lamp, "L", light.state.colour_space, self._version)
+            name = lamp.string("filename", "") if self._version == 4 else ""
+            if name and lamp.has("L"):
+                raise ImportProblem(f'{lamp.place}: an area light has both "L" and "filename"; it must have one of them')
+            if name:
+                assert not isinstance(radiance, Texture)
+                radiance = arithmetic.scaled(self._textures.emission(name, str(lamp.place)), radiance)
+            self._radiances[light] = radiance
+        return self._radiances[light]
+
+    def _luminance_of(self, lamp: Parameters) -> float:
+        """By which pbrt-v4 divides a "power" besides the area: an image's; 1 for a colour, whose own is left out of
+        account (DiffuseAreaLight::Create, k_e)."""
+        name = lamp.string("filename", "")
+        if not name:
+            return 1.0
+        mean = colours.luminance(arithmetic.mean_rgb(self._textures.emission(name, str(lamp.place))))
+        return mean if mean > 0 else 1.0
 
     def _fitting(self, mesh: Mesh, material: Material) -> Mesh:
         """The mesh as the material needs it: with texture coordinates, and turned inside out for a bubble in glass."""
@@ -141,3 +168,4 @@ class World:
         if len(parts) >= MOST_PARTS:
             raise ImportProblem(f"{place}: the scene has more than {MOST_PARTS} parts; it must have fewer instances")
         parts.append(part)
+
