@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import re
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -22,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from glb_reading import Glb
 from importer import __main__ as command
-from importer.output.terminal import changes
+from importer.output import terminal
 from importer.problems import ImportProblem, Notes
 
 VALIDATOR = jsonschema.Draft202012Validator(json.loads((ROOT / "docs/config.schema.json").read_text()))
@@ -161,12 +163,23 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(command.main([str(self.scene), str(glb), "--force"]), 1)
         self.assertEqual(([file.name for file in self.out.iterdir()], glb.read_bytes()), (["room.glb"], b"old"))
 
+    def test_progress(self) -> None:
+        """On a terminal one line after a few seconds, which is gone at the end; elsewhere nothing."""
+        shown = io.StringIO()
+        is_over = mock.Mock(wait=mock.Mock(side_effect=[False, False, False, True]))
+        with mock.patch("sys.stderr", shown), mock.patch("time.monotonic", side_effect=[0, 1, 3.5, 4.5]):
+            terminal._show(lambda: "57 files, sail.obj", is_over)
+        self.assertEqual(shown.getvalue(), "\r\033[Kimport: 4 s, 57 files, sail.obj\r\033[Kimport: 4 s, 57 files, sail.obj\r\033[K")
+        with mock.patch("sys.stderr", io.StringIO()) as silent, terminal.progress(lambda: "x"):
+            self.assertEqual(threading.active_count(), 1)
+        self.assertEqual(silent.getvalue(), "")
+
     def test_what_changed_is_a_table(self) -> None:
         notes = Notes(is_lenient=True)
         for line in (3, 8):
             notes.approximated("Beckmann's microfacets as GGX's", f"a.xml:{line}")
         notes.refuse("hair", "a.xml:9")
-        self.assertEqual(changes(notes.rows()), [
+        self.assertEqual(terminal.changes(notes.rows()), [
             "", "approximated", "  Beckmann's microfacets as GGX's  2 times      a.xml:3",
             "", "left out", "  hair                             once         a.xml:9"])
 

@@ -16,6 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "configs"))
 
+from importer.images.exr_file import read_exr
 from importer.output import sky as sky_file
 from importer.output.config import UNLIMITED, config_of, write_config
 from importer.output.world import World
@@ -91,6 +92,12 @@ class SkyTest(unittest.TestCase):
         np.testing.assert_array_equal(image, self.image[:, ::-1])
         self.assertEqual(self.said(Sky(image=self.image, scale=(1, 2, 3)))[0]["scale"], [1, 2, 3])
         self.assertEqual(self.notes.rows(), [])
+
+    def test_the_file(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.exr"
+            sky_file.write_sky(Sky(image=self.image / 7), World(np.eye(3), 0.0, True), path, "a.exr", self.notes)
+            np.testing.assert_array_equal(read_exr(path), self.image[:, ::-1] / 7)
 
     def test_impossible_skies(self) -> None:
         for sky, said in ((Sky((1, -1, 1)), "radiance is -1"), (Sky((1, float("nan"), 1)), "radiance is nan"),

@@ -152,13 +152,17 @@ class WorldTest(unittest.TestCase):
         self.assertAlmostEqual(world.sky_degrees, -50)
 
     def test_impossible_transforms(self) -> None:
-        for camera, sky, said in ((np.diag([1.0, 0, 1, 1]), np.eye(3), "singular"), (np.full((4, 4), np.nan), np.eye(3), "singular"),
+        for camera, sky, said in ((np.diag([1.0, 0, 1, 1]), np.eye(3), "singular"), (np.full((4, 4), np.nan), np.eye(3), "finite"),
                                   (np.eye(4), np.diag([2.0, 1, 1]), "a rotation would be right")):
             scene = Scene("a", Camera(camera, 40.0), sky=Sky(image=np.ones((2, 4, 3), np.float32), to_world=sky))
             with self.assertRaisesRegex(ImportProblem, said):
                 world_of(scene)
         with self.assertRaisesRegex(ImportProblem, "finite"):
             self.with_part(np.full((4, 4), np.inf))
+        perspective = np.eye(4)
+        perspective[3, 2] = 1
+        with self.assertRaisesRegex(ImportProblem, "shape part: .*last row"):
+            self.with_part(perspective)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from importer.output.materials import Materials
 from importer.output.nodes import camera_json, lights_json, matrix_json
 from importer.output.packing import Packer
 from importer.output.textures import Textures
-from importer.output.world import World, world_of
+from importer.output.world import World, check_affine, world_of
 from importer.problems import ImportProblem, Notes
 from importer.scene import Mesh, Part, Scene
 from scenes.glb_file import Buffer, glb
@@ -56,8 +56,7 @@ class _Writer:
         if part.material.opacity == 0:  # nobody sees it, and every ray would have to pass it
             return
         where = f"shape {part.name}"
-        if not np.isfinite(part.to_world).all():
-            raise ImportProblem(f"{where}: its transform holds no finite numbers; finite ones would be right")
+        check_affine(part.to_world, where)
         to_world = self.world.place(np.asarray(part.to_world, float))
         mesh = part.mesh
         if not is_translation_rotation_scale(to_world):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -179,15 +180,17 @@ class Materials:
     textures: Textures
     packer: Packer
     listed: list[dict[str, Any]] = field(default_factory=list)
+    _by_content: dict[str, int] = field(default_factory=dict)
     _written: dict[int, tuple[Material, Written]] = field(default_factory=dict)  # with the material, so that it lives on
 
     def written(self, material: Material) -> Written:
         if id(material) not in self._written:
             writer = _Writer(material, self.textures, self.packer)
             said = writer.to_json()
-            if said not in self.listed:
+            index = self._by_content.setdefault(json.dumps(said), len(self.listed))
+            if index == len(self.listed):
                 self.listed.append(said)
-            self._written[id(material)] = (material, Written(self.listed.index(said), writer.second_uv))
+            self._written[id(material)] = (material, Written(index, writer.second_uv))
         return self._written[id(material)][1]
 
     def extensions(self) -> set[str]:

@@ -42,11 +42,18 @@ def _turned_upright(pole: np.ndarray) -> np.ndarray:
     return np.eye(3) + skew + skew @ skew / (1 + cosine)
 
 
+def check_affine(matrix: np.ndarray, where: str) -> None:
+    if not np.isfinite(matrix).all():
+        raise ImportProblem(f"{where}: its transform holds no finite numbers; finite ones would be right")
+    if not np.allclose(matrix[3], (0, 0, 0, 1), atol=1e-9):
+        raise ImportProblem(f"{where}: its transform's last row is {matrix[3].tolist()}; 0 0 0 1 would be right")
+
+
 def _is_mirroring(camera: Camera) -> bool:
-    is_finite = np.isfinite(camera.to_world).all()
-    volume = float(np.linalg.det(camera.to_world[:3, :3])) if is_finite else 0.0
+    check_affine(camera.to_world, "camera")
+    volume = float(np.linalg.det(camera.to_world[:3, :3]))
     if volume == 0:
-        raise ImportProblem("camera: its transform is singular or no number; one with an inverse would be right")
+        raise ImportProblem("camera: its transform is singular; one with an inverse would be right")
     return volume < 0
 
 
