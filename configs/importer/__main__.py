@@ -7,7 +7,9 @@ import os
 import sys
 import tempfile
 import time
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Iterator
 
 from importer.output.config import config_of, write_config
 from importer.output.glb import Totals, write_glb
@@ -63,6 +65,8 @@ class Outputs:
 
     def check(self, *files: Path) -> None:
         for file in files:
+            if file.is_dir():
+                raise ImportProblem(f"{file}: it is a folder; another name would be right")
             if file.exists() and not self._may_replace:
                 raise ImportProblem(f"{file}: it is there already; --force writes over it")
         if not self.glb.parent.is_dir():
@@ -76,11 +80,20 @@ class Outputs:
             os.replace(folder / file.name, file)
         return files
 
+    @contextmanager
+    def prepared(self) -> Iterator[Path]:
+        """A folder beside them, to write into first; whatever goes wrong there went wrong with theirs."""
+        folder = self.glb.parent
+        try:
+            with tempfile.TemporaryDirectory(prefix=".import_", dir=folder) as temporary:
+                yield Path(temporary)
+        except OSError as error:
+            raise ImportProblem(f"{folder}: the files cannot be written there ({error.strerror or error})") from error
+
 
 def _write(scene: Scene, outputs: Outputs, notes: Notes, source: dict) -> tuple[Totals, dict, list[Path]]:
     """Whole or not at all: in a folder beside the others first. The .glb says what was noted of the rest, too."""
-    with tempfile.TemporaryDirectory(prefix=".import_", dir=outputs.glb.parent) as temporary:
-        folder = Path(temporary)
+    with outputs.prepared() as folder:
         environment = write_sky(scene.sky, world_of(scene), folder / outputs.sky.name, outputs.sky.name, notes)
         config = config_of(scene, outputs.glb.name, environment, notes)
         write_config(config, folder / outputs.config.name, source["file"])
@@ -113,7 +126,8 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"import: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
     except MemoryError:
-        print(f"import: {options.scene}: it needs more memory than there is; a smaller scene would be right", file=sys.stderr)
+        print(f"import: {options.scene}: it needs more memory than there is; a smaller scene would be right",
+              file=sys.stderr)
         return 1
     return 0
 

@@ -98,7 +98,8 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(source["files"], [{"name": "meshes/sail.obj", "sha256": hashlib.sha256(OBJ.encode()).hexdigest()},
                                            {"name": "scene.xml", "sha256": source["sha256"]}])
         config = self.config("room.json")
-        self.assertEqual((config["width"], config["height"], config["max_bounces"], config["scene"]), (64, 32, 3, "room.glb"))
+        self.assertEqual((config["width"], config["height"], config["max_bounces"]), (64, 32, 3))
+        self.assertEqual(config["scene"], "room.glb")
         for line in (r"source +scene\.xml, Mitsuba 3\.0\.0", "shapes +2 of 2 meshes", "triangles +3", "light +1 lamp",
                      "picture +64 x 32", "path length +3 scattering events", r"written +\S+room\.glb, \S+room\.json"):
             self.assertRegex(result.stdout, rf"(?m)^{line}$")
@@ -146,10 +147,14 @@ class CommandTest(unittest.TestCase):
         self.assertIn("sail.obj", self.refused(self.scene, self.out / "a.glb"))
         self.scene.write_text(MITSUBA[:300])
         self.refused(self.scene, self.out / "a.glb")
-        self.assertIn("cannot be read (No such file or directory)", self.refused(self.folder / "none.xml", self.out / "a.glb"))
-        self.scene.write_text("hello")
-        self.assertIn("neither XML nor pbrt", self.refused(self.scene, self.out / "a.glb"))
+        none = self.folder / "none.xml"
+        self.assertIn("cannot be read (No such file or directory)", self.refused(none, self.out / "a.glb"))
+        (self.folder / "scene").write_text("hello")
+        self.assertIn("neither XML nor pbrt", self.refused(self.folder / "scene", self.out / "a.glb"))
         self.assertIn("no such folder", self.refused(self.scene, self.out / "none/a.glb"))
+        self.assertIn("meshes: it is no file", self.refused(self.folder / "meshes", self.out / "a.glb"))
+        self.scene.write_text(re.sub('"obj"(.*)<string.*?/>', r'"rectangle"\1', MITSUBA))
+        self.assertIn("cannot be written there", self.refused(self.scene, "/proc/a.glb"))
 
     def test_usage(self) -> None:
         self.assertIn("a name that ends in .glb would be right", self.refused(self.scene, self.out / "a.gltf", code=2))
@@ -169,7 +174,7 @@ class CommandTest(unittest.TestCase):
         is_over = mock.Mock(wait=mock.Mock(side_effect=[False, False, False, True]))
         with mock.patch("sys.stderr", shown), mock.patch("time.monotonic", side_effect=[0, 1, 3.5, 4.5]):
             terminal._show(lambda: "57 files, sail.obj", is_over)
-        self.assertEqual(shown.getvalue(), "\r\033[Kimport: 4 s, 57 files, sail.obj\r\033[Kimport: 4 s, 57 files, sail.obj\r\033[K")
+        self.assertEqual(shown.getvalue(), 2 * "\r\033[Kimport: 4 s, 57 files, sail.obj" + "\r\033[K")
         with mock.patch("sys.stderr", io.StringIO()) as silent, terminal.progress(lambda: "x"):
             self.assertEqual(threading.active_count(), 1)
         self.assertEqual(silent.getvalue(), "")

@@ -50,7 +50,8 @@ class ConfigTest(unittest.TestCase):
     def test_what_the_source_says(self) -> None:
         config = self.written([1.0, 2.0, 3.0], scene(width=640, height=360))
         self.assertEqual({key: config[key] for key in ("name", "scene", "width", "height", "max_bounces", "environment")},
-                         {"name": "room", "scene": "room.glb", "width": 640, "height": 360, "max_bounces": 7, "environment": [1, 2, 3]})
+                         {"name": "room", "scene": "room.glb", "width": 640, "height": 360, "max_bounces": 7,
+                          "environment": [1, 2, 3]})
         self.assertEqual([method["nee"] for method in config["sweep"][0]["method"].values()], ["one_ray"] * 2)
         self.assertIn(config["baseline"], config["sweep"][0]["method"])
         self.assertEqual(self.notes.rows(), [])
@@ -101,7 +102,8 @@ class SkyTest(unittest.TestCase):
 
     def test_impossible_skies(self) -> None:
         for sky, said in ((Sky((1, -1, 1)), "radiance is -1"), (Sky((1, float("nan"), 1)), "radiance is nan"),
-                          (Sky(image=self.image, scale=(1, 1, 1e9)), "scale is 1e"), (Sky(image=self.image + np.inf), "finite"),
+                          (Sky(image=self.image, scale=(1, 1, 1e9)), "scale is 1e"),
+                          (Sky(image=self.image + np.inf), "finite"),
                           (Sky(image=self.image[..., 0]), r"\(2, 4\) numbers")):
             with self.subTest(said), self.assertRaisesRegex(ImportProblem, said):
                 self.said(sky)

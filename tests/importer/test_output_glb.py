@@ -47,7 +47,8 @@ class GlbTest(unittest.TestCase):
         self.assertEqual(document["asset"]["generator"], "qtrace importer")
         self.assertEqual(document["asset"]["extras"], {
             "source": {"file": "a.xml", "sha256": "0" * 64},
-            "approximations": [{"kind": "approximated", "what": "Beckmann's microfacets as GGX's", "count": 1, "first": "a.xml:3"}]})
+            "approximations": [{"kind": "approximated", "what": "Beckmann's microfacets as GGX's", "count": 1,
+                                "first": "a.xml:3"}]})
         self.assertEqual(document["scenes"][0]["name"], "the scene")
 
     def test_what_is_found_while_writing_is_said_too(self) -> None:
@@ -61,7 +62,8 @@ class GlbTest(unittest.TestCase):
         """Of a mesh with one material that many parts show there is one, and triangles count as often as they are seen."""
         place = np.eye(4)
         place[:3, 3] = 5, 0, 0
-        glb = self.glb(Part("a", TRIANGLE, GREY), Part("b", TRIANGLE, GREY, place), Part("c", TRIANGLE, Material("white", (1, 1, 1))))
+        glb = self.glb(Part("a", TRIANGLE, GREY), Part("b", TRIANGLE, GREY, place),
+                       Part("c", TRIANGLE, Material("white", (1, 1, 1))))
         document = glb.document
         self.assertEqual((len(document["meshes"]), len(document["nodes"])), (2, 4))
         self.assertEqual(len(document["accessors"]), 2)
@@ -143,7 +145,8 @@ class GlbTest(unittest.TestCase):
             with self.subTest(said), self.assertRaisesRegex(ImportProblem, said):
                 self.glb(camera=camera)
         point, spot = LightKind.POINT, LightKind.SPOT
-        for light, said in ((Light("a", point, (-1.0, 0, 0)), "intensity"), (Light("a", point, (1.0, float("inf"), 0)), "intensity"),
+        for light, said in ((Light("a", point, (-1.0, 0, 0)), "intensity"),
+                            (Light("a", point, (1.0, float("inf"), 0)), "intensity"),
                             (Light("a", point, (1.0, 1, 1), (0, float("nan"), 0)), "position"),
                             (Light("a", spot, (1.0, 1, 1), direction=(0, 0, 0)), "direction"),
                             (Light("a", spot, (1.0, 1, 1), outer_cone=2.0), "cones")):

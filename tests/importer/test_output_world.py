@@ -152,7 +152,8 @@ class WorldTest(unittest.TestCase):
         self.assertAlmostEqual(world.sky_degrees, -50)
 
     def test_impossible_transforms(self) -> None:
-        for camera, sky, said in ((np.diag([1.0, 0, 1, 1]), np.eye(3), "singular"), (np.full((4, 4), np.nan), np.eye(3), "finite"),
+        for camera, sky, said in ((np.diag([1.0, 0, 1, 1]), np.eye(3), "singular"),
+                                  (np.full((4, 4), np.nan), np.eye(3), "finite"),
                                   (np.eye(4), np.diag([2.0, 1, 1]), "a rotation would be right")):
             scene = Scene("a", Camera(camera, 40.0), sky=Sky(image=np.ones((2, 4, 3), np.float32), to_world=sky))
             with self.assertRaisesRegex(ImportProblem, said):

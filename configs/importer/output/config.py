@@ -47,7 +47,8 @@ def config_of(scene: Scene, glb_name: str, environment: Any, notes: Notes) -> di
 
 def write_config(config: dict[str, Any], path: Path, source_name: str) -> None:
     """With the lines that say where it comes from; a config may have comments."""
-    head = (f"// Imported from {' '.join(source_name.split())}: the resolution, the length of paths and the sky are the source's.\n"
+    name = " ".join(source_name.split())
+    head = (f"// Imported from {name}: the resolution, the length of paths and the sky are the source's.\n"
             f"// Frames, reference and methods are a start: docs/experiments.md. What is approximated stands in the .glb's\n"
             f"// asset.extras and is explained in docs/importing.md.\n")
     path.write_text(head + json.dumps(config, indent=2, allow_nan=False) + "\n")

@@ -45,7 +45,8 @@ class Inputs:
         self.stop()
         files = [path for path in self.files if path.is_file()]
         hashes = {str(path.relative_to(self.folder)): _sha256(path) for path in files}
-        return {"file": self.scene.name, "format": format_name, "version": version, "sha256": hashes[self.scene.resolve().name],
+        return {"file": self.scene.name, "format": format_name, "version": version,
+                "sha256": hashes[self.scene.resolve().name],
                 "files": [{"name": name, "sha256": hashes[name]} for name in sorted(hashes)]}
 
 
@@ -56,6 +57,8 @@ def _sha256(path: Path) -> str:
 
 def format_of(scene: Path) -> str:
     """"Mitsuba" or "pbrt", by the file's ending, and by its content where that says nothing."""
+    if scene.exists() and not scene.is_file():
+        raise ImportProblem(f"{scene}: it is no file; a Mitsuba .xml or a .pbrt file would be right")
     try:
         with scene.open("rb") as file:
             head = file.read(_HEAD)
@@ -64,7 +67,7 @@ def format_of(scene: Path) -> str:
                             ) from error
     if ".pbrt" in scene.suffixes:
         return "pbrt"
-    if re.match(rb"(\xef\xbb\xbf)?\s*<", head):
+    if scene.suffix == ".xml" or re.match(rb"(\xef\xbb\xbf)?\s*<", head):
         return "Mitsuba"
     if re.search(rb"^\s*(WorldBegin|LookAt|Camera|Film|Include|Integrator)\b", head, re.MULTILINE):
         return "pbrt"

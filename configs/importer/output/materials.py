@@ -45,8 +45,9 @@ class _Writer:
         self.extensions: dict[str, Any] = {}
 
     def _second_uv(self, notes: Notes) -> np.ndarray | None:
-        values = (getattr(self.material, f.name) for f in dataclasses.fields(self.material))
-        sheared = [np.asarray(v.image_from_uv, float) for v in values if isinstance(v, Texture) and is_sheared(v.image_from_uv)]
+        values = [getattr(self.material, f.name) for f in dataclasses.fields(self.material)]
+        matrices = [np.asarray(value.image_from_uv, float) for value in values if isinstance(value, Texture)]
+        sheared = [matrix for matrix in matrices if is_sheared(matrix)]
         if any(not np.array_equal(matrix, sheared[0]) for matrix in sheared):
             notes.refuse("textures that are sheared in different ways", self.where)
         return sheared[0] if sheared else None

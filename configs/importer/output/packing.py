@@ -63,7 +63,7 @@ class Packer:
         coverage = self.numbers(opacity, in_all, where)
         colours = self.colours(colours, where)
         if not (np.array_equal(colours.image_from_uv, coverage.image_from_uv) and colours.wrap == coverage.wrap):
-            self.notes.approximated("a colour and an opacity that lie differently on a surface as one image, resampled", where)
+            self.notes.approximated("a colour and an opacity that lie differently as one image, resampled", where)
         rgb, alpha = (bake.combined(colours, coverage, lambda *both: both[i]) for i in (0, 1))
         pixels = np.concatenate([rgb.image.pixels, alpha.image.pixels[..., :1]], axis=2)
         return dataclasses.replace(rgb, image=Image(rgb.image.name, pixels))
