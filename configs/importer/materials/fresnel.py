@@ -48,6 +48,15 @@ def schlick(cosine: np.ndarray, f0: float, f90: float = 1.0) -> np.ndarray:
     return f0 + (f90 - f0) * (1.0 - np.clip(cosine, 0.0, 1.0)) ** 5
 
 
+def nodes_within(eta: float) -> tuple[np.ndarray, np.ndarray]:
+    """Cosines and weights, adding up to 1, on the dense side of a surface with an index of `eta` < 1 behind it: apart for
+    total reflection and for what is refracted, there by the cosine outside, in which the reflectance has no kink."""
+    critical = np.sqrt(1.0 - eta ** 2)
+    refracted = np.sqrt(1.0 - eta ** 2 * (1.0 - COSINES ** 2))
+    return (np.concatenate([critical * COSINES, refracted]),
+            np.concatenate([critical ** 2 * COSINE_WEIGHTS, eta ** 2 * COSINE_WEIGHTS]))
+
+
 @functools.lru_cache(maxsize=1024)
 def average(eta: float) -> float:
     """Of white light from the whole hemisphere: twice the integral of F cos over cos."""

@@ -15,7 +15,13 @@ Curve = Callable[[np.ndarray], np.ndarray]
 _GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(16)
 COSINES = 0.5 * (_GAUSS + 1.0)
 WEIGHTS = _GAUSS_WEIGHTS * COSINES
+# Points of the unit disc, by Gauss-Legendre quadrature over its height sqrt(1 - r^2): near its rim, where the far normals
+# of narrow lobes are, they are dense.
 _STEPS = 32
+_HEIGHTS, _HEIGHT_WEIGHTS = ((a + b) / 2 for a, b in zip(np.polynomial.legendre.leggauss(_STEPS), (1.0, 0.0)))
+_RADII = np.repeat(np.sqrt(1.0 - _HEIGHTS ** 2), _STEPS)[None]
+_TURNS = np.tile(2.0 * np.pi * (np.arange(_STEPS) + 0.5) / _STEPS, _STEPS)[None]
+_SHARES = np.repeat(2.0 * _HEIGHTS * _HEIGHT_WEIGHTS / _STEPS, _STEPS)  # they add up to 1
 SMOOTH = 1e-4  # an alpha below which a surface counts as smooth
 # Where errors are looked for: up to 60 degrees from the normal and up to 85.
 STEEP_VIEWS = np.cos(np.radians(np.array((0.0, 15.0, 30.0, 45.0, 60.0))))
@@ -28,16 +34,14 @@ def mean(values: np.ndarray) -> float:
 
 
 def _visible_normals(cosines: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray]:
-    """v.h and the cosine of h for views in rows: the distribution of visible normals of GGX (Heitz 2018) on a regular grid,
-    v being in the plane of x and z."""
-    u1, u2 = (g.ravel() for g in np.meshgrid(*2 * [(np.arange(_STEPS) + 0.5) / _STEPS]))
+    """v.h and the cosine of h for views in rows, v being in the plane of x and z: the visible normals of GGX (Heitz 2018)
+    of the grid below."""
     sines = np.sqrt(np.maximum(1.0 - cosines ** 2, 0.0))[:, None]
     stretched = np.concatenate([alpha * sines, cosines[:, None]], axis=1)
     vx, vz = np.split(stretched / np.linalg.norm(stretched, axis=1, keepdims=True), 2, axis=1)
-    radius, angle = np.sqrt(u1)[None], 2.0 * np.pi * u2[None]
-    p1 = radius * np.cos(angle)
+    p1 = _RADII * np.cos(_TURNS)
     up = 0.5 * (1.0 + vz)
-    p2 = (1.0 - up) * np.sqrt(1.0 - p1 ** 2) + up * radius * np.sin(angle)
+    p2 = (1.0 - up) * np.sqrt(1.0 - p1 ** 2) + up * _RADII * np.sin(_TURNS)
     p3 = np.sqrt(np.maximum(1.0 - p1 ** 2 - p2 ** 2, 0.0))
     hx, hy, hz = alpha * (-vz * p2 + vx * p3), alpha * p1, np.maximum(vx * p2 + vz * p3, 1e-9)
     length = np.sqrt(hx ** 2 + hy ** 2 + hz ** 2)
@@ -66,7 +70,7 @@ def gloss(cosines: np.ndarray, alpha: float, reflectance: Curve, is_separable: b
     v_h, h_z = _visible_normals(cosines, alpha)
     light = 2.0 * v_h * h_z - cosines[:, None]
     unmasked = _unmasked(light, cosines[:, None], alpha, is_separable)
-    return np.where(light > 0.0, reflectance(np.clip(v_h, 0.0, 1.0)) * unmasked, 0.0).mean(axis=1)
+    return np.where(light > 0.0, reflectance(np.clip(v_h, 0.0, 1.0)) * unmasked, 0.0) @ _SHARES
 
 
 def passed(cosines: np.ndarray, alpha: float, eta: float, is_separable: bool = False) -> np.ndarray:
@@ -78,7 +82,7 @@ def passed(cosines: np.ndarray, alpha: float, eta: float, is_separable: bool = F
     refracted = np.sqrt(np.maximum(1.0 - (1.0 - v_h ** 2) / eta ** 2, 0.0))
     light = (v_h / eta - refracted) * h_z - cosines[:, None] / eta  # below the surface: negative
     unmasked = _unmasked(light, cosines[:, None], alpha, is_separable)
-    return np.where(light < 0.0, (1.0 - fresnel.dielectric(v_h, eta)) * unmasked, 0.0).mean(axis=1)
+    return np.where(light < 0.0, (1.0 - fresnel.dielectric(v_h, eta)) * unmasked, 0.0) @ _SHARES
 
 
 def below(cosines: np.ndarray, f0: float, f90: float) -> np.ndarray:
@@ -102,16 +106,22 @@ def dielectric_gloss(cosines: np.ndarray, alpha: float, eta: float, is_separable
     return gloss(cosines, alpha, lambda c: fresnel.dielectric(c, eta), is_separable)
 
 
+def _nodes(eta: float) -> tuple[np.ndarray, np.ndarray]:
+    return fresnel.nodes_within(eta) if eta < 1.0 else (COSINES, WEIGHTS)
+
+
 @functools.lru_cache(maxsize=1024)
 def dielectric_in_all(alpha: float, eta: float, is_separable: bool = False) -> float:
-    """Reflected by the surface; by many nodes, since there is a kink at the critical angle."""
+    """Reflected by the surface."""
     if alpha < SMOOTH:
         return fresnel.average(eta)
-    return float(fresnel.COSINE_WEIGHTS @ dielectric_gloss(fresnel.COSINES, alpha, eta, is_separable))
+    cosines, weights = _nodes(eta)
+    return float(weights @ dielectric_gloss(cosines, alpha, eta, is_separable))
 
 
 @functools.lru_cache(maxsize=1024)
 def passed_in_all(alpha: float, eta: float, is_separable: bool = False) -> float:
     if alpha < SMOOTH:
         return 1.0 - fresnel.average(eta)
-    return float(fresnel.COSINE_WEIGHTS @ passed(fresnel.COSINES, alpha, eta, is_separable))
+    cosines, weights = _nodes(eta)
+    return float(weights @ passed(cosines, alpha, eta, is_separable))

@@ -134,7 +134,7 @@ def coated_diffuse(name: str, reflectance: Colour, eta: float, alpha: Number, th
 @functools.lru_cache(maxsize=1024)
 def _coat_from_below(eta: float, alpha: float, thickness: float) -> tuple[float, float]:
     """Of light that leaves Lambert's surface: what comes out of the coat, and what comes back down to the surface."""
-    cosines, weights = fresnel.COSINES, fresnel.COSINE_WEIGHTS
+    cosines, weights = fresnel.nodes_within(1.0 / eta)
     once = np.exp(-thickness / cosines)
     return (float(weights @ (once * lobes.passed(cosines, alpha, 1.0 / eta))),
             float(weights @ (once ** 2 * lobes.dielectric_gloss(cosines, alpha, 1.0 / eta))))
