@@ -24,7 +24,7 @@ from importer.scene import Image
 _FLOATS = {".exr": read_exr, ".hdr": read_hdr, ".pic": read_hdr, ".rgbe": read_hdr, ".pfm": read_pfm}
 _FORMATS = ("PNG", "JPEG", "TGA", "BMP")
 _PILLOW_ERRORS = (OSError, SyntaxError, ValueError, LookupError, TypeError, OverflowError, struct.error, EOFError,
-                  NotImplementedError, MemoryError, Pillow.DecompressionBombError)
+                  NotImplementedError, MemoryError)
 
 
 def load_image(path: Path, is_linear: bool | None = None) -> Image:
@@ -75,6 +75,8 @@ def _opened(path: Path, data: bytes) -> Pillow.Image:
         warnings.simplefilter("ignore", Pillow.DecompressionBombWarning)
         try:
             picture = Pillow.open(io.BytesIO(data), formats=_FORMATS)
+        except Pillow.DecompressionBombError as error:
+            raise ImportProblem(f"{path}: the image has more than the {MAX_PIXELS >> 20} Mi pixels that are read") from error
         except _PILLOW_ERRORS as error:
             raise ImportProblem(f"{path}: the image is none of {', '.join(_FORMATS)}, EXR, HDR and PFM, or is damaged") from error
     check_size(path, *picture.size, MAX_PIXELS)
