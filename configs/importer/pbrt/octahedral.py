@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-_SAMPLES = 3  # per side of a texel: pixels keep their share of light to some per cent, suns among them
+_SAMPLES = 4096  # per latitude: a pixel keeps its share of light to a few per cent, a sun's in a large image too
 _ROWS_AT_ONCE = 16
 MOST_ROWS = 4096
 
@@ -40,7 +40,7 @@ def latitude_longitude(image: np.ndarray) -> np.ndarray:
     it of the nearest pixel, as pbrt looks it up."""
     size = image.shape[0]
     rows = min(size, MOST_ROWS)
-    fine = _SAMPLES
+    fine = max(2, min(8, _SAMPLES // rows))
     longitude = (np.arange(2 * rows * fine) + 0.5) / (2 * rows * fine) * (2 * np.pi)
     around = np.stack([np.cos(longitude), np.sin(longitude)], axis=-1)
     result = np.empty((rows, 2 * rows, 3), np.float32)
@@ -52,5 +52,7 @@ def latitude_longitude(image: np.ndarray) -> np.ndarray:
         directions[..., 2] = np.cos(colatitude)[:, None]
         pixel = np.minimum((square_of_directions(directions) * size).astype(np.int64), size - 1)
         found = image[pixel[..., 1], pixel[..., 0]].reshape(count, fine, 2 * rows, fine, 3)
-        result[first:first + count] = found.mean(axis=(1, 3))
+        share = np.sin(colatitude).reshape(count, fine)  # of the texel's solid angle: rows at the poles taper
+        share /= share.sum(axis=1, keepdims=True)
+        result[first:first + count] = np.einsum("rf,rfcgk->rck", share, found) / fine
     return result

@@ -104,7 +104,7 @@ class Spectra:
                                 " numbers; it must have 3")
         if (values < 0).any():
             raise ImportProblem(f'{parameter.place}: the parameter "{parameter.kind} {parameter.name}" has a negative'
-                                " number; colours are 0 or more")
+                                " number; colours must be 0 or more")
         if parameter.kind == "xyz":
             return colours.rgb_of_xyz(values)
         if colour_space == "srgb":

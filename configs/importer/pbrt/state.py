@@ -94,8 +94,9 @@ class States:
     def apply(self, statement: Statement) -> bool:
         """Whether the statement was one that changes nothing but the state, and has been carried out."""
         if statement.directive in _TRANSFORMS:
-            self._set_matrix(_TRANSFORMS[statement.directive](self.now.to_world, statement.numbers, statement.place),
-                             statement.place)
+            with np.errstate(over="ignore", invalid="ignore"):  # what overflows is told of there
+                matrix = _TRANSFORMS[statement.directive](self.now.to_world, statement.numbers, statement.place)
+            self._set_matrix(matrix, statement.place)
         elif statement.directive == "CoordinateSystem":
             self._coordinate_systems[statement.strings[0]] = self.now.to_world
         elif statement.directive == "CoordSysTransform":
