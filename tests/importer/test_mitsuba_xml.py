@@ -170,7 +170,7 @@ class WrongTest(MitsubaTest):
             f"{head}{SENSOR}<bsdf type='diffuse'><integer name='a' value='1.5'/></bsdf></scene>": "not an integer",
             f"{head}{SENSOR}<bsdf type='diffuse'><boolean name='a' value='yes'/></bsdf></scene>": 'neither "true"',
             f"{head}{SENSOR}<bsdf type='diffuse'><spectrum name='a' value='400:1, 300:2'/></bsdf></scene>": "must rise",
-            f"{head}{SENSOR}<bsdf type='diffuse'>{2 * '<float name="a" value="1"/>'}</bsdf></scene>": "given twice",
+            head + SENSOR + '<bsdf type="diffuse">' + 2 * '<float name="a" value="1"/>' + "</bsdf></scene>": "given twice",
             head + 80 * '<bsdf type="twosided">' + 80 * "</bsdf>" + "</scene>": "nested more than 60",
             '<!DOCTYPE scene [<!ENTITY a "b">]><scene version="3.0.0"/>': "document type",
             '<!DOCTYPE scene SYSTEM "x.dtd"><scene version="3.0.0"/>': "document type",
