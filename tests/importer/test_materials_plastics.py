@@ -82,8 +82,8 @@ class Lobes(unittest.TestCase):
     def test_what_glTF_leaves_to_a_diffuse_lobe(self) -> None:
         for cosine in (1.0, 0.5, 0.1):
             made = Material("white", base_colour=WHITE, specular=1.0)
-            self.assertAlmostEqual(lobes.below(np.array([cosine]), 0.04, 1.0)[0], gltf_model.diffuse_reflectance(made, cosine),
-                                   delta=2e-3)
+            found = lobes.below(np.array([cosine]), 0.04, 1.0)[0]
+            self.assertAlmostEqual(found, gltf_model.diffuse_reflectance(made, cosine), delta=2e-3)
 
 
 class MitsubasPlastic(unittest.TestCase):

@@ -47,7 +47,8 @@ def _dimmed(material: Material, factor: Rgb) -> Material:
 
 
 def _is_lambert(material: Material) -> bool:
-    return material.metallic == 0.0 and all(parameters.is_constant(n, 0.0) for n in (material.specular, material.transmission))
+    lobes = (material.specular, material.transmission)
+    return material.metallic == 0.0 and all(parameters.is_constant(lobe, 0.0) for lobe in lobes)
 
 
 def _absorbed(sigma_a: Rgb, thickness: float, eta: float, is_diffuse: bool, notes: Notes, where: str) -> Rgb:
@@ -75,6 +76,7 @@ def coated(material: Material, ior: float, alpha: Number, specular: Colour, thic
     specular = limits.reflectance(specular, "the specular reflectance of a coat", notes, where)
     if not parameters.is_grey(specular) or isinstance(specular, parameters.Texture):
         notes.approximated("a coat's factor that has a colour or varies as its mean", where)
+    notes.approximated("a coat over another surface as glTF's, which takes its share by the viewer's angle alone", where)
     factor = _factor(ior, float(np.mean(parameters.mean_rgb(specular))), notes, where)
     if _is_lambert(material):
         kept = (1.0 - fresnel.average(ior)) ** 2 / ior ** 2 / (1.0 - factor * fresnel.schlick_average(_COAT_F0))

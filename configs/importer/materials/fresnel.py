@@ -40,7 +40,7 @@ def f0_of_index(eta: float) -> float:
 def index_of_f0(f0: float) -> float:
     """The index above 1 of that reflectance at normal incidence."""
     root = min(max(f0, 0.0), 0.9999) ** 0.5
-    return (1.0 + root) / (1.0 - root)
+    return round((1.0 + root) / (1.0 - root), 9)  # so that 1.5 comes back as 1.5
 
 
 def schlick(cosine: np.ndarray, f0: float, f90: float = 1.0) -> np.ndarray:

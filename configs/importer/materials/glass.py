@@ -41,7 +41,7 @@ def dielectric(name: str, int_ior: float, ext_ior: float, alpha: Number, reflect
     eta = int_ior / ext_ior
     if abs(eta - 1.0) < 1e-6:
         # Without an interface nothing is reflected or bent, and pbrt takes it as smooth (BxDF's EffectivelySmooth).
-        return Material(name, base_colour=transmittance, roughness=0.0, specular=0.0, ior=1.0, transmission=1.0, is_thin=True)
+        return _nothing_but_colour(name, transmittance)
     dense = max(eta, 1.0 / eta)
     cosines = np.cos(np.radians(np.arange(0.0, 90.0)))
     _curve_note(fresnel.dielectric(cosines, dense), cosines, fresnel.f0_of_index(dense), "Fresnel's reflectance of glass",
@@ -52,10 +52,15 @@ def dielectric(name: str, int_ior: float, ext_ior: float, alpha: Number, reflect
                 specular=strength, specular_colour=colour, ior=dense, transmission=1.0, is_thin=False)
 
 
+def _nothing_but_colour(name: str, transmittance: Colour) -> Material:
+    return Material(name, base_colour=transmittance, roughness=0.0, specular=0.0, ior=1.0, transmission=1.0, is_thin=True)
+
+
 def _lobe(reflectance: Colour, notes: Notes, where: str) -> tuple[Number, Colour]:
     if parameters.is_constant(reflectance, 1.0):
         return 1.0, WHITE
-    notes.approximated("a factor of what glass reflects: what it takes away passes, and total reflection has none of it", where)
+    notes.approximated("a factor of what glass reflects: what it takes away passes, and total reflection has none of it",
+                       where)
     return strength_and_colour(reflectance, notes, where)
 
 
@@ -75,7 +80,7 @@ def thin_dielectric(name: str, int_ior: float, ext_ior: float, reflectance: Colo
     eta = max(int_ior / ext_ior, ext_ior / int_ior)
     f0 = float(thin_reflectance(fresnel.f0_of_index(eta)))
     if f0 < 1e-12:
-        return Material(name, base_colour=transmittance, roughness=0.0, specular=0.0, ior=1.0, transmission=1.0, is_thin=True)
+        return _nothing_but_colour(name, transmittance)
     cosines = np.cos(np.radians(np.arange(0.0, 90.0)))
     exact = np.asarray(thin_reflectance(fresnel.dielectric(cosines, eta)))
     _curve_note(exact, cosines, f0, "the reflectance of both faces of thin glass", notes, where)

@@ -37,15 +37,16 @@ def statistics(image: Image) -> Statistics:
 
 def _statistics(image: Image) -> Statistics:
     pixels = image.pixels[:, :, :3]
-    difference = max(float(np.abs(pixels[:, :, k] - pixels[:, :, 0].astype(np.float64)).max()) for k in (1, 2))
     if pixels.dtype == np.uint8:
         # By counts of the 256 values, since all texels as numbers would be 24 bytes each.
         counts = np.stack([np.bincount(pixels[:, :, k].ravel(), minlength=256) for k in range(3)])
         values = srgb.to_linear(np.arange(256) / 255.0)
         extremes = [values[np.flatnonzero(row)[[0, -1]]] for row in counts]
         return Statistics(np.array([e[0] for e in extremes]), np.array([e[1] for e in extremes]),
-                          counts @ values / counts[0].sum(), difference == 0.0)
+                          counts @ values / counts[0].sum(),
+                          all(np.array_equal(pixels[:, :, 0], pixels[:, :, k]) for k in (1, 2)))
     flat = pixels.reshape(-1, 3)
+    difference = max(float(np.abs(flat[:, 0] - flat[:, k]).max()) for k in (1, 2))
     return Statistics(flat.min(axis=0), flat.max(axis=0), flat.mean(axis=0, dtype=np.float64), difference < 1e-6)
 
 

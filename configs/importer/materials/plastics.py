@@ -33,7 +33,8 @@ class Source:
 def _checked_index(eta: float, where: str) -> float:
     limits.checked_number(float(eta), "the index of a dielectric surface over that of what is above it", where)
     if eta <= 1.0:
-        raise ImportProblem(f"{where}: the index of a dielectric surface is {eta:g} of that above it; above 1 would be right")
+        raise ImportProblem(f"{where}: the index of a dielectric surface is {eta:g} of that above it; above 1 would be "
+                            "right")
     return float(eta)
 
 
@@ -75,9 +76,9 @@ def _note_angles(reflectance: Colour, base: Colour, f0: float, strength: float, 
 
     steep, flat = worst(lobes.STEEP_VIEWS), worst(lobes.FLAT_VIEWS)
     if max(steep, flat) > limits.TOLERANCE:
-        notes.approximated("a dielectric over a diffuse surface as glTF's, which sends as much diffuse light in all; seen up "
-                           f"to 60 degrees from the normal it is off by {limits.bound(steep)} of reflectance at most, up to 85 "
-                           f"by {limits.bound(flat)}", where)
+        notes.approximated("a dielectric over a diffuse surface as glTF's, which sends as much diffuse light in all; seen "
+                           f"up to 60 degrees from the normal it is off by {limits.bound(steep)} of reflectance at most, up to "
+                           f"85 by {limits.bound(flat)}", where)
 
 
 def plastic(name: str, diffuse: Colour, ior: float, alpha: Number, specular: Colour, is_nonlinear: bool, notes: Notes,
