@@ -11,7 +11,7 @@ from importer.scene import Scene
 
 UNLIMITED = 64  # events of a path where the source sets no limit: what is left of its light is next to nothing
 _MOST_BOUNCES, _MOST_PIXELS = 1024, 16384  # of the keys (docs/keys.md)
-_FRAMES, _REFERENCE_FRAMES = 64, 1024
+_FRAMES, _REFERENCE_FRAMES = 32, 256
 # With fewer events roulette costs more than it saves (configs/time_to_error.json).
 _ROULETTE = 8
 _METHODS = {

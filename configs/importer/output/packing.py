@@ -33,8 +33,11 @@ def in_alpha(numbers: np.ndarray) -> np.ndarray:
 
 
 def texel_numbers(texture: Texture) -> np.ndarray:
-    """(height, width): the mean of R, G and B with the texture's scale, as scene.py has it."""
-    return srgb.linear(texture.image) @ (np.asarray(texture.scale, float) / 3)
+    """(height, width) float32: the mean of R, G and B with the texture's scale, as scene.py has it."""
+    rgb = texture.image.pixels[..., :3]
+    weights = np.asarray(texture.scale, float) / 3  # one channel at a time, as each is larger than the image
+    channels = (srgb.linear(Image("", rgb[..., i:i + 1]))[..., 0].astype(np.float32) for i in range(3))
+    return sum(channel * np.float32(weight) for channel, weight in zip(channels, weights))
 
 
 @dataclass

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
+from typing import Iterator
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from scenes.png_file import png_bytes
 
 _SIGNATURES = {"image/png": b"\x89PNG\r\n\x1a\n", "image/jpeg": b"\xff\xd8\xff"}
 _WHOLE_STEP = 1e-3  # so near to a whole number of 255ths, 8 bits say all there is
+_BLOCK = 1 << 18  # texels at a time
 _LARGE = 1 << 22  # bytes; from here on a file that is a little smaller is not worth the time
 
 
@@ -33,24 +35,29 @@ def _check(image: Image) -> None:
         raise ImportProblem(f"image {image.name}: a texel is no finite number")
 
 
-def _quantised(values: np.ndarray) -> np.ndarray:
-    """Of [0, 1]: 8 bits where they lose nothing, else 16."""
-    values = np.clip(values, 0, 1)
+def _values(image: Image, channels: Channels) -> Iterator[np.ndarray]:
+    """In [0, 1] and in the file's own encoding, some rows at a time, as floats take many times the room of what is
+    written."""
+    rows = max(1, _BLOCK // image.pixels.shape[1])
+    for top in range(0, len(image.pixels), rows):
+        pixels = image.pixels[top:top + rows]
+        linear = srgb.linear(Image(image.name, pixels))
+        colours = linear if channels is Channels.NUMBERS else srgb.from_linear(linear)
+        if channels is Channels.COLOUR_AND_ALPHA and pixels.shape[2] == 4:
+            colours = np.concatenate([colours, pixels[..., 3:]], axis=2)
+        yield np.clip(colours, 0, 1)
+
+
+def _are_bytes(values: np.ndarray) -> bool:
     steps = values * 255
-    if np.abs(steps - np.round(steps)).max() < _WHOLE_STEP:
-        return np.round(steps).astype(np.uint8)
-    return np.round(values * 65535).astype(np.uint16)
+    return bool(np.abs(steps - np.round(steps)).max() < _WHOLE_STEP)
 
 
-def _values(image: Image, channels: Channels) -> np.ndarray:
-    """In [0, 1], in the file's own encoding."""
-    pixels, is_bytes = image.pixels, image.pixels.dtype == np.uint8
-    if channels is Channels.NUMBERS:
-        return srgb.linear(image)
-    colours = pixels[..., :3] / 255 if is_bytes else srgb.from_linear(pixels[..., :3])
-    if channels is not Channels.COLOUR_AND_ALPHA or pixels.shape[2] == 3:
-        return colours
-    return np.concatenate([colours, pixels[..., 3:] / 255 if is_bytes else pixels[..., 3:]], axis=2)
+def _quantised(image: Image, channels: Channels) -> np.ndarray:
+    """8 bits where they lose nothing, else 16."""
+    is_coarse = all(_are_bytes(values) for values in _values(image, channels))
+    kind, most = (np.uint8, 255) if is_coarse else (np.uint16, 65535)
+    return np.concatenate([np.round(values * most).astype(kind) for values in _values(image, channels)])
 
 
 def _is_same_file(image: Image, channels: Channels) -> bool:
@@ -70,7 +77,7 @@ def encoded(image: Image, channels: Channels) -> tuple[bytes, str]:
     if image.pixels.dtype == np.uint8 and channels is not Channels.NUMBERS:
         texels = image.pixels if channels is Channels.COLOUR_AND_ALPHA else image.pixels[..., :3]
     else:
-        texels = _quantised(_values(image, channels))
+        texels = _quantised(image, channels)
     if texels.nbytes > _LARGE:
         return png_bytes(texels, filters=(2,), level=4), "image/png"
     return png_bytes(texels, filters=(1, 2), level=6), "image/png"
