@@ -18,7 +18,8 @@ from importer.scene import Image, Texture, Wrap  # noqa: E402
 MIDDLE = 0.21586050011389926
 
 
-def texture(pixels: np.ndarray, scale: tuple[float, float] = (1, 1), offset: tuple[float, float] = (0, 0), **options) -> Texture:
+def texture(pixels: np.ndarray, scale: tuple[float, float] = (1, 1), offset: tuple[float, float] = (0, 0),
+            **options: object) -> Texture:
     matrix = np.array([[scale[0], 0, offset[0]], [0, scale[1], offset[1]]])
     return Texture(Image("image", np.asarray(pixels)), matrix, **options)
 

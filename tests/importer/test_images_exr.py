@@ -112,6 +112,7 @@ class ExrTest(unittest.TestCase):
         write_exr(self.path, waves(19, 37))
         good = self.path.read_bytes()
         piz = (FOLDER / "piz_half.exr").read_bytes()
+        channel = struct.pack("<iIii", 2, 0, 1, 1)
         flagged = [good[:4] + struct.pack("<I", 2 | flag) + good[8:] for flag in (0x800, 0x1000)]
         for data, part in (
                 (b"", "truncated or damaged"),
@@ -126,8 +127,8 @@ class ExrTest(unittest.TestCase):
                 (changed(good, "dataWindow", struct.pack("<4i", 0, 0, 99999, 99999)), "has 100000 x 100000 pixels"),
                 (changed(good, "dataWindow", struct.pack("<4i", 0, 0, 30000, 30000)), "it may have"),
                 (changed(good, "dataWindow", struct.pack("<4i", 0, 0, -1, 5)), "has 0 x 6 pixels"),
-                (good.replace(struct.pack("<iIii", 2, 0, 1, 1), struct.pack("<iIii", 2, 0, 2, 2)), "fewer samples than pixels"),
-                (good.replace(struct.pack("<iIii", 2, 0, 1, 1), struct.pack("<iIii", 7, 0, 1, 1)), "unknown type 7"),
+                (good.replace(channel, struct.pack("<iIii", 2, 0, 2, 2)), "fewer samples than pixels"),
+                (good.replace(channel, struct.pack("<iIii", 7, 0, 1, 1)), "unknown type 7"),
                 (good.replace(b"G\0" + struct.pack("<i", 2), b"R\0" + struct.pack("<i", 2)), "named twice"),
         ):
             with self.subTest(part=part):

@@ -76,7 +76,8 @@ def _attributes(width: int, height: int) -> bytes:
             ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
             ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
             ("screenWindowWidth", "float", struct.pack("<f", 1))]
-    return b"".join(f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in rows) + b"\0"
+    values = (f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in rows)
+    return b"".join(values) + b"\0"
 
 
 def _chunk(y: int, raw: bytes) -> bytes:

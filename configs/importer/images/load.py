@@ -78,7 +78,8 @@ def _opened(path: Path, data: bytes) -> Pillow.Image:
         except Pillow.DecompressionBombError as error:
             raise ImportProblem(f"{path}: the image has more than the {MAX_PIXELS >> 20} Mi pixels that are read") from error
         except _PILLOW_ERRORS as error:
-            raise ImportProblem(f"{path}: the image is none of {', '.join(_FORMATS)}, EXR, HDR and PFM, or is damaged") from error
+            known = ", ".join(_FORMATS)
+            raise ImportProblem(f"{path}: the image is none of {known}, EXR, HDR and PFM, or is damaged") from error
     check_size(path, *picture.size, MAX_PIXELS)
     return picture
 

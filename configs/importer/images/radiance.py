@@ -40,12 +40,12 @@ def _colours(rgbe: np.ndarray) -> np.ndarray:
 
 
 def _hdr_lines(path: Path, data: np.ndarray, width: int, height: int) -> np.ndarray:
-    """(height, width, 4). A line is packed by component if it begins with 2, 2 and its width; else by pixel, or not at all."""
+    """(height, width, 4). A line is packed by component if it begins with 2, 2 and its width; else by pixel or not."""
     lines = np.empty((height, width, 4), np.uint8)
     at = 0
     for y in range(height):
         mark = data[at:at + 4]
-        if len(mark) == 4 and 8 <= width <= 32767 and (mark[0], mark[1], 256 * int(mark[2]) + mark[3]) == (2, 2, width):
+        if len(mark) == 4 and 8 <= width <= 32767 and mark.tolist() == [2, 2, *divmod(width, 256)]:
             at = _packed_line(path, data, at + 4, lines[y])
         else:
             lines[y:] = _old_lines(path, data[at:], width * (height - y)).reshape(-1, width, 4)

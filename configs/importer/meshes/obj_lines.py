@@ -5,13 +5,13 @@ Text is cut into blocks of some MiB at ends of lines, so that the masks over its
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterator
 
 import numpy as np
 
+from importer.meshes.text import parsed
 from importer.problems import ImportProblem
 
 _BLOCK = 16 << 20
@@ -135,19 +135,6 @@ class Block:
             if numbers is None or len(numbers) != len(row.split()):
                 raise self.problem(line, f"'{name}' is followed by something that is not a number: {_shown(row)}")
         raise ImportProblem(f"{self.path}: the numbers after '{name}' cannot be read")
-
-
-def parsed(text: bytes, kind: type) -> np.ndarray | None:
-    """Numbers between white space, or None where there is something else. NumPy's parser is one loop in C that does
-    not ask for the country's decimal point; it warns, or in later versions raises, where it stops early."""
-    if not text.strip():
-        return np.empty(0, kind)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", DeprecationWarning)
-        try:
-            return np.fromstring(text, kind, sep=" ")
-        except (DeprecationWarning, ValueError):
-            return None
 
 
 def _tokens_per_line(text: np.ndarray) -> np.ndarray:

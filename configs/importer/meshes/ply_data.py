@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from importer.meshes.obj_lines import parsed
 from importer.meshes.ply_header import Element, Header, Property
+from importer.meshes.text import parsed
 from importer.problems import ImportProblem
 
 

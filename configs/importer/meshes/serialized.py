@@ -114,7 +114,7 @@ class _Stream:
         if size > self._most:
             raise ImportProblem(f"{self._path}: mesh {self._index} states more vertices and triangles than it has bytes for")
         if size > MAX_BYTES:
-            raise ImportProblem(f"{self._path}: mesh {self._index} is larger than {MAX_BYTES >> 20} MiB, the most that is read")
+            raise ImportProblem(f"{self._path}: mesh {self._index} is larger than the {MAX_BYTES >> 20} MiB that are read")
 
     def array(self, rows: int, columns: int, kind: np.dtype) -> np.ndarray:
         values = np.frombuffer(self._read(rows * columns * kind.itemsize), kind).reshape(rows, columns)
