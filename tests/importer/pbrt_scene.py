@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import tempfile
 from pathlib import Path
-from typing import Mapping
+from typing import Mapping, Sequence
+
+import numpy as np
+from PIL import Image as Pillow
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "configs"))
 
@@ -61,3 +65,11 @@ def material(text: str, head: str = HEAD, files: Mapping[str, bytes | str] | Non
 
 def said(notes: Notes) -> list[str]:
     return [str(row["what"]) for row in notes.rows()]
+
+
+def png(pixels: Sequence[Sequence[tuple[int, ...]]]) -> bytes:
+    """Rows from the top."""
+    array = np.array(pixels, np.uint8)
+    file = io.BytesIO()
+    Pillow.fromarray(array, "RGBA" if array.shape[2] == 4 else "RGB").save(file, "PNG")
+    return file.getvalue()

@@ -78,7 +78,8 @@ class Transforms(unittest.TestCase):
 
     def test_what_flattens_or_is_not_affine(self) -> None:
         for text in ("Scale 1 0 1", "Transform [1 0 0 0  0 1 0 0  0 0 0 0  0 0 0 1]", "Rotate 90 0 0 0",
-                     "LookAt 0 0 0 0 0 0 0 1 0", "LookAt 0 0 0 0 1 0 0 1 0", "Transform [1 0 0 1  0 1 0 0  0 0 1 0  0 0 0 1]",
+                     "LookAt 0 0 0 0 0 0 0 1 0", "LookAt 0 0 0 0 1 0 0 1 0",
+                     "Transform [1 0 0 1  0 1 0 0  0 0 1 0  0 0 0 1]",
                      "Scale 1e200 1e200 1e200\n" * 2):
             self.assertRegex(problem('Camera "perspective"\nWorldBegin\n' + text), "must")
 

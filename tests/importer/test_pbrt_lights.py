@@ -122,7 +122,8 @@ class Areas(unittest.TestCase):
         np.testing.assert_allclose(self.lamp("")[0].parts[0].material.radiance, (1, 1, 1))
 
     def test_lamps_end_with_their_state(self) -> None:
-        scene, _ = world('AttributeBegin\nAreaLightSource "diffuse" "rgb L" [3 2 1]\n' + TRIANGLE + "AttributeEnd\n" + TRIANGLE)
+        scene, _ = world('AttributeBegin\nAreaLightSource "diffuse" "rgb L" [3 2 1]\n' + TRIANGLE
+                         + "AttributeEnd\n" + TRIANGLE)
         np.testing.assert_allclose(scene.parts[1].material.radiance, (0, 0, 0))
 
     def test_power_of_a_ball(self) -> None:
@@ -161,7 +162,8 @@ class Areas(unittest.TestCase):
 
 class Skies(unittest.TestCase):
     def test_constant_skies_add_up(self) -> None:
-        scene, _ = world('LightSource "infinite" "rgb L" [1 2 3] "float scale" 2\nLightSource "infinite" "float illuminance" 1')
+        scene, _ = world('LightSource "infinite" "rgb L" [1 2 3] "float scale" 2\n'
+                         'LightSource "infinite" "float illuminance" 1')
         np.testing.assert_allclose(scene.sky.radiance, np.array([2, 4, 6]) + 1 / math.pi)
         self.assertIsNone(scene.sky.image)
 
@@ -226,7 +228,8 @@ class Skies(unittest.TestCase):
 
     def test_an_image_and_a_constant(self) -> None:
         files = {"a.pfm": pfm(np.ones((4, 4, 3)))}
-        sky = world('LightSource "infinite" "string filename" "a.pfm" "float scale" 3\nLightSource "infinite" "rgb L" [1 2 3]',
+        sky = world('LightSource "infinite" "string filename" "a.pfm" "float scale" 3\n'
+                    'LightSource "infinite" "rgb L" [1 2 3]',
                     files=files)[0].sky
         np.testing.assert_allclose(seen(sky, (0, 1, 0.1)), (4, 5, 6), rtol=1e-6)
 

@@ -116,7 +116,8 @@ class Problems(unittest.TestCase):
         self.check('Shape "sphere" "float radius" 1_0', "stands where a number is expected")
         self.check('Shape "trianglemesh" "point3 P" [1 2]', "must have a multiple of 3")
         self.check('Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2.5]', "whole numbers")
-        self.check('Shape "sphere" "string radius" "x"', 'the parameter "radius" of the shape "sphere" is of the type string')
+        self.check('Shape "sphere" "string radius" "x"',
+                   'the parameter "radius" of the shape "sphere" is of the type string')
         self.check('AreaLightSource "diffuse" "bool twosided" "yes"\n' + TRIANGLE, "it must be true or false")
 
     def test_files(self) -> None:

@@ -109,9 +109,9 @@ class Materials:
             self._being_made -= 1
         return self._made[definition]
 
-    def overridden(self, definition: Definition, parameters: Parameters) -> Material | None:
+    def overridden(self, definition: Definition, parameters: Parameters, names: set[str]) -> Material | None:
         """As pbrt-v3 has it where a shape sets parameters of its material (GraphicsState::GetMaterialForShape)."""
-        own = [*parameters.own, *definition.parameters.own]
+        own = [*(parameter for parameter in parameters.own if parameter.name in names), *definition.parameters.own]
         return self._make(replace(definition, parameters=replace(definition.parameters, own=own)))
 
     def masked(self, material: Material, parameters: Parameters, state: State) -> Material | None:

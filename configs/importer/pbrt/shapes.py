@@ -57,7 +57,7 @@ class Shapes:
             indices = np.array([[0, 1, 2]])
         if indices is None:
             raise ImportProblem(f'{parameters.place}: the shape "trianglemesh" has no "indices"; it must have them')
-        triangles = indices.astype(np.int64)
+        triangles = _whole(indices)
         where = Path(str(parameters.place))
         assemble.check_indices(where, "vertex", triangles, len(positions))
         mesh = assemble.finished(where, Mesh(positions, triangles, normals, uvs, "trianglemesh"))
@@ -71,7 +71,7 @@ class Shapes:
         if indices is None:
             raise ImportProblem(f'{parameters.place}: the shape "bilinearmesh" has no "indices"; it must have them')
         where = Path(str(parameters.place))
-        corners = indices.astype(np.int64)
+        corners = _whole(indices)
         assemble.check_indices(where, "vertex", corners, len(positions))
         parameters.without_effect("emissionfilename")  # by which pbrt chooses points on a lamp, and no more
         parts = [patch.bilinear(positions[row], None if normals is None else normals[row],
@@ -179,6 +179,11 @@ def _finished(mesh: Mesh, is_reversed: bool) -> Mesh:
 
 def _moved(mesh: Mesh, to_world: np.ndarray) -> Mesh:
     return replace(mesh, positions=mesh.positions @ to_world[:3, :3].T + to_world[:3, 3], normals=None)
+
+
+def _whole(indices: np.ndarray) -> np.ndarray:
+    """Of what may be far out of range, and stays so."""
+    return np.clip(indices, -1, 1 << 40).astype(np.int64)
 
 
 def _joined(parts: list[Mesh]) -> Mesh:

@@ -84,7 +84,7 @@ class World:
         definition = state.material
         overrides = {parameter.name for parameter in parameters.own} & set(OVERRIDES) if self._version == 3 else set()
         if definition is not None and overrides:
-            material = self._materials.overridden(definition, parameters)
+            material = self._materials.overridden(definition, parameters, overrides)
             parameters.without_effect(*overrides)
         else:
             material = self._materials.of(definition)
