@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from importer.output.packing import Packer, in_all, in_alpha, in_green
+from importer.output.packing import Packer
 from importer.output.pixels import Channels
 from importer.output.textures import Textures, is_sheared
 from importer.problems import ImportProblem, Notes
@@ -55,15 +55,14 @@ class _Writer:
     def _info(self, texture: Texture, channels: Channels) -> dict[str, Any]:
         return self.textures.info(texture, channels, self.second_uv)
 
-    def number(self, name: str, value: Number, layout: Any = in_all) -> tuple[float, dict[str, Any] | None]:
-        """A factor and, where the number varies, its texture."""
+    def number(self, name: str, value: Number, channels: Channels) -> tuple[float, dict[str, Any] | None]:
+        """A factor and, where the number varies, its texture, with the number in the channel where glTF has it."""
         if not isinstance(value, Texture):
             return _numbers((value,), f"{self.where}: {name}")[0], None
-        channels = Channels.COLOUR_AND_ALPHA if layout is in_alpha else Channels.NUMBERS
-        return 1.0, self._info(self.packer.numbers(value, layout, self.where), channels)
+        return 1.0, self._info(self.packer.numbers(value, self.where), channels)
 
-    def set_number(self, extension: str, name: str, value: Number, layout: Any = in_all) -> None:
-        factor, info = self.number(name, value, layout)
+    def set_number(self, extension: str, name: str, value: Number, channels: Channels = Channels.NUMBERS) -> None:
+        factor, info = self.number(name, value, channels)
         said = self.extensions.setdefault(extension, {})
         said[f"{name}Factor"] = factor
         if info:
@@ -75,7 +74,7 @@ class _Writer:
         if info:
             said["baseColorTexture"] = info
         said["metallicFactor"] = _numbers((self.material.metallic,), f"{self.where}: metallic")[0]
-        said["roughnessFactor"], info = self.number("roughness", self.material.roughness, in_green)
+        said["roughnessFactor"], info = self.number("roughness", self.material.roughness, Channels.GREEN)
         if info:
             said["metallicRoughnessTexture"] = info
         return said
@@ -87,7 +86,7 @@ class _Writer:
             factor = [*_numbers(colour, f"{self.where}: base colour"), alpha]
             if not isinstance(opacity, Texture):
                 return factor, None
-            return factor, self._info(self.packer.numbers(opacity, in_alpha, self.where), Channels.COLOUR_AND_ALPHA)
+            return factor, self._info(self.packer.numbers(opacity, self.where), Channels.ALPHA)
         if isinstance(opacity, Texture):
             colour, channels = self.packer.colours_and_opacity(colour, opacity, self.where), Channels.COLOUR_AND_ALPHA
         else:
@@ -102,7 +101,7 @@ class _Writer:
         if material.metallic == 1:  # of which nothing is dielectric
             return
         if material.specular != 1:
-            self.set_number("KHR_materials_specular", "specular", material.specular, in_alpha)
+            self.set_number("KHR_materials_specular", "specular", material.specular, Channels.ALPHA)
         if material.specular_colour != WHITE:
             said = self.extensions.setdefault("KHR_materials_specular", {})
             colour = material.specular_colour

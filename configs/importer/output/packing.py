@@ -1,5 +1,5 @@
-"""Numbers that vary over a surface, in the channels where glTF has them: roughness in G, transmission and clearcoat in R,
-strength of the dielectric lobe in A of a texture of their own; opacity in A of the base colour's."""
+"""Parameters that vary over a surface as images of their own: one number a texel, colours that their scale leaves in
+[0, 1], and a colour with its opacity."""
 
 from __future__ import annotations
 
@@ -12,24 +12,6 @@ import numpy as np
 from importer.images import bake, srgb
 from importer.problems import Notes
 from importer.scene import WHITE, Image, Texture
-
-Layout = Callable[[np.ndarray], np.ndarray]  # of (height, width) numbers: (height, width, 3 or 4)
-
-
-def in_green(numbers: np.ndarray) -> np.ndarray:
-    """Red and blue are 1: blue is multiplied with `metallicFactor`."""
-    ones = np.ones_like(numbers)
-    return np.stack([ones, numbers, ones], axis=2)
-
-
-def in_all(numbers: np.ndarray) -> np.ndarray:
-    return np.repeat(numbers[..., None], 3, axis=2)
-
-
-def in_alpha(numbers: np.ndarray) -> np.ndarray:
-    """Under white, which is 1 in sRGB and as a number."""
-    ones = np.ones_like(numbers)
-    return np.stack([ones, ones, ones, numbers], axis=2)
 
 
 def texel_numbers(texture: Texture) -> np.ndarray:
@@ -48,10 +30,13 @@ class Packer:
     _made: dict[tuple, Image] = field(default_factory=dict)
     _kept: list[Image] = field(default_factory=list)  # so that no other image gets the identity of one that is known
 
-    def numbers(self, texture: Texture, layout: Layout, where: str) -> Texture:
-        """With a scale of 1."""
-        return self._with(texture, (layout.__name__, texture.scale),
-                          lambda: layout(self._clipped(texel_numbers(texture), where)))
+    def numbers(self, texture: Texture, where: str) -> Texture:
+        """With a scale of 1: grey, of which one channel is kept in memory."""
+        def make() -> np.ndarray:
+            values = self._clipped(texel_numbers(texture), where)
+            return np.broadcast_to(values[..., None], (*values.shape, 3))
+
+        return self._with(texture, ("numbers", texture.scale), make)
 
     def colours(self, texture: Texture, where: str) -> Texture:
         """With no scale above 1, which a factor of a colour cannot be."""
@@ -63,7 +48,7 @@ class Packer:
 
     def colours_and_opacity(self, colours: Texture, opacity: Texture, where: str) -> Texture:
         """Both in one image with a scale of 1, mapped as `bake.combined` chooses for the two."""
-        coverage = self.numbers(opacity, in_all, where)
+        coverage = self.numbers(opacity, where)
         colours = self.colours(colours, where)
         if not (np.array_equal(colours.image_from_uv, coverage.image_from_uv) and colours.wrap == coverage.wrap):
             self.notes.approximated("a colour and an opacity that lie differently as one image, resampled", where)

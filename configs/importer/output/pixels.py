@@ -25,6 +25,8 @@ class Channels(Enum):
     COLOUR_ALONE = "sRGB, and there must be no alpha"
     COLOUR_AND_ALPHA = "sRGB and alpha"
     NUMBERS = "linear"
+    GREEN = "linear, the first in G; R and B are 1, as B is multiplied with metallicFactor"
+    ALPHA = "linear, the first in A under white"
 
 
 def _check(image: Image) -> None:
@@ -41,11 +43,19 @@ def _values(image: Image, channels: Channels) -> Iterator[np.ndarray]:
     rows = max(1, _BLOCK // image.pixels.shape[1])
     for top in range(0, len(image.pixels), rows):
         pixels = image.pixels[top:top + rows]
-        linear = srgb.linear(Image(image.name, pixels))
-        colours = linear if channels is Channels.NUMBERS else srgb.from_linear(linear)
-        if channels is Channels.COLOUR_AND_ALPHA and pixels.shape[2] == 4:
-            colours = np.concatenate([colours, pixels[..., 3:]], axis=2)
-        yield np.clip(colours, 0, 1)
+        yield np.clip(_laid_out(srgb.linear(Image(image.name, pixels)), pixels[..., 3:], channels), 0, 1)
+
+
+def _laid_out(linear: np.ndarray, alpha: np.ndarray, channels: Channels) -> np.ndarray:
+    ones = np.ones_like(linear[..., 0])
+    if channels is Channels.GREEN:
+        return np.stack([ones, linear[..., 0], ones], axis=2)
+    if channels is Channels.ALPHA:
+        return np.stack([ones, ones, ones, linear[..., 0]], axis=2)
+    if channels is Channels.NUMBERS:
+        return linear
+    colours = srgb.from_linear(linear)
+    return np.concatenate([colours, alpha], axis=2) if channels is Channels.COLOUR_AND_ALPHA else colours
 
 
 def _are_bytes(values: np.ndarray) -> bool:
@@ -74,8 +84,8 @@ def encoded(image: Image, channels: Channels) -> tuple[bytes, str]:
     _check(image)
     if _is_same_file(image, channels):
         return image.encoded, image.mime_type
-    if image.pixels.dtype == np.uint8 and channels is not Channels.NUMBERS:
-        texels = image.pixels if channels is Channels.COLOUR_AND_ALPHA else image.pixels[..., :3]
+    if image.pixels.dtype == np.uint8 and channels in (Channels.COLOUR, Channels.COLOUR_ALONE):
+        texels = image.pixels[..., :3]
     else:
         texels = _quantised(image, channels)
     if texels.nbytes > _LARGE:
