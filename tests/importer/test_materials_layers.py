@@ -244,6 +244,11 @@ class Parameters(unittest.TestCase):
         np.testing.assert_allclose(made.image.pixels[0, :, 0], (0.5, 1.0))
         self.assertEqual(made.scale, (4.0, 4.0, 4.0))
 
+    def test_one_image_with_two_scales_is_mapped_twice(self) -> None:
+        texture = grey(0.25, 1.0)
+        made = [parameters.map_colour(t, np.sqrt, "root") for t in (texture, parameters.scaled(texture, 0.25), texture)]
+        self.assertEqual([float(parameters.texels(t)[0, 0, 0]) for t in made], [0.5, 0.25, 0.5])
+
     def test_two_parameters(self) -> None:
         self.assertEqual(parameters.combine_colours((1.0, 2.0, 3.0), WHITE, np.add), (2.0, 3.0, 4.0))
         made = parameters.combine_colours(grey(0.5, 1.0), (0.8, 1.0, 2.0), np.multiply)

@@ -77,8 +77,8 @@ def _note_angles(reflectance: Colour, base: Colour, f0: float, strength: float, 
     steep, flat = worst(lobes.STEEP_VIEWS), worst(lobes.FLAT_VIEWS)
     if max(steep, flat) > limits.TOLERANCE:
         notes.approximated("a dielectric over a diffuse surface as glTF's, which sends as much diffuse light in all; seen "
-                           f"up to 60 degrees from the normal it is off by {limits.bound(steep)} of reflectance at most, up to "
-                           f"85 by {limits.bound(flat)}", where)
+                           f"up to 60 degrees from the normal it is off by {limits.bound(steep)} of reflectance at most, up "
+                           f"to 85 by {limits.bound(flat)}", where)
 
 
 def plastic(name: str, diffuse: Colour, ior: float, alpha: Number, specular: Colour, is_nonlinear: bool, notes: Notes,
