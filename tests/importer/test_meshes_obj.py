@@ -120,6 +120,7 @@ class ObjTest(unittest.TestCase):
             part = self.read(text)
             self.assertEqual(corners(part), corners(whole))
             np.testing.assert_array_equal(part.normals, whole.normals)
+            self.assertIn(f"line {len(rows) + 1}: ", self.refused(text + "\nv 1 2 x"))
 
     def test_faults_are_one_sentence_with_the_line(self) -> None:
         for text, part in (

@@ -116,15 +116,16 @@ class PrimitivesTest(unittest.TestCase):
         np.testing.assert_array_equal(normal, (0, 0, 1))
 
     def test_cylinder(self) -> None:
-        mesh = primitives.cylinder((1, 1, 1), (2, 3, 3), 0.5)  # 3 long
-        self.check(mesh)
-        self.assertAlmostEqual(area(mesh) / (3 * math.pi), 1, delta=1.1e-4)
-        axis = np.array((1, 2, 2)) / 3
-        along = (mesh.positions - (1, 1, 1)) @ axis
-        np.testing.assert_allclose(along, 3 * mesh.uvs[:, 1], atol=1e-12)
-        radial = mesh.positions - (1, 1, 1) - along[:, None] * axis
-        np.testing.assert_allclose(radial, 0.5 * mesh.normals, atol=1e-12)
-        np.testing.assert_array_equal(np.unique(mesh.uvs[:, 1]), (0, 1))
+        for way in ((1, 2, 2), (1, 2, -2), (-2, 1, -2)):  # 3 long
+            mesh = primitives.cylinder((1, 1, 1), np.array(way) + 1, 0.5)
+            self.check(mesh)
+            self.assertAlmostEqual(area(mesh) / (3 * math.pi), 1, delta=1.1e-4)
+            axis = np.array(way) / 3
+            along = (mesh.positions - (1, 1, 1)) @ axis
+            np.testing.assert_allclose(along, 3 * mesh.uvs[:, 1], atol=1e-12)
+            radial = mesh.positions - (1, 1, 1) - along[:, None] * axis
+            np.testing.assert_allclose(radial, 0.5 * mesh.normals, atol=1e-12)
+            np.testing.assert_array_equal(np.unique(mesh.uvs[:, 1]), (0, 1))
 
     def test_cylinder_along_z_begins_at_x(self) -> None:
         mesh = primitives.cylinder()
