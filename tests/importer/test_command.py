@@ -16,6 +16,7 @@ from pathlib import Path
 from unittest import mock
 
 import jsonschema
+import numpy as np
 from PIL import Image as Picture
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -57,6 +58,10 @@ Shape "trianglemesh" "point3 P" [0 0 0  1 0 0  0 1 0] "integer indices" [0 1 2]
 """
 
 
+def before_camera(glb: Glb, point: np.ndarray) -> np.ndarray:
+    return np.linalg.inv(glb.matrix("camera"))[:3] @ [*point, 1]
+
+
 class CommandTest(unittest.TestCase):
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
@@ -92,8 +97,13 @@ class CommandTest(unittest.TestCase):
         result = self.run_import(self.scene, self.out / "room.glb")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertEqual(sorted(file.name for file in self.out.iterdir()), ["room.glb", "room.json"])
-        source = Glb.read(self.out / "room.glb").document["asset"]["extras"]["source"]
+        glb = Glb.read(self.out / "room.glb")
+        source = glb.document["asset"]["extras"]["source"]
         self.assertEqual((source["file"], source["format"], source["version"]), ("scene.xml", "Mitsuba", "3.0.0"))
+        # The camera at z = 5 looks at the origin: +x is on the right, and both shapes turn their fronts to it.
+        for name in ("sail", "lamp"):
+            np.testing.assert_allclose(glb.fronts(name)[0], (0, 0, 1), atol=1e-6)
+        np.testing.assert_allclose(before_camera(glb, glb.corners("sail")[0].max(axis=0)), (1, 1, -5), atol=1e-6)
         self.assertEqual(source["sha256"], hashlib.sha256(MITSUBA.encode()).hexdigest())
         self.assertEqual(source["files"], [{"name": "meshes/sail.obj", "sha256": hashlib.sha256(OBJ.encode()).hexdigest()},
                                            {"name": "scene.xml", "sha256": source["sha256"]}])
@@ -109,8 +119,16 @@ class CommandTest(unittest.TestCase):
         scene.write_text(PBRT)
         result = self.run_import(scene, self.out / "room.glb")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        source = Glb.read(self.out / "room.glb").document["asset"]["extras"]["source"]
+        glb = Glb.read(self.out / "room.glb")
+        source = glb.document["asset"]["extras"]["source"]
         self.assertEqual((source["format"], source["version"]), ("pbrt", "4"))
+        # pbrt's world is left-handed: its camera at z = 5 that looks at the origin has +x on its *left* (LookAt's right is
+        # up x direction = -x), and the triangle still turns its front to it.
+        name = glb.document["nodes"][0]["name"]
+        found = {tuple(before_camera(glb, corner).round(5)) for corner in glb.corners(name)[0]}
+        self.assertEqual(found, {(0, 0, -5), (-1, 0, -5), (0, 1, -5)})
+        back = np.linalg.inv(glb.matrix("camera"))[:3, :3]
+        np.testing.assert_allclose(back @ glb.fronts(name)[0], (0, 0, 1), atol=1e-6)
         config = self.config("room.json")
         self.assertEqual((config["max_bounces"], config["environment"]), (3, [1, 2, 3]))
         self.assertRegex(result.stdout, "(?m)^light +a sky of one radiance$")
