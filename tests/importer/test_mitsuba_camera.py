@@ -179,6 +179,9 @@ class PathLengthTest(MitsubaTest):
         self.assert_noted("left out: hide_emitters")
         self.bounces('<integrator type="depth"/>')
         self.assert_noted('the integrator "depth"')
+        self.bounces('<integrator type="guided_path"><integer name="sppPerPass" value="1"/><float name="budget" value="9"/>'
+                     "</integrator>", "0.5.0")
+        self.assertEqual(self.noted(), ['left out: parameters of the integrator "guided_path": budget, spp_per_pass'])
         self.assertIn("max_depth", self.problem('<integrator type="path"><integer name="max_depth" '
                                                 'value="-2"/></integrator>'))
 

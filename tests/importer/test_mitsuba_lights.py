@@ -170,6 +170,17 @@ class AreaLightTest(MitsubaTest):
         self.assertIsInstance(radiance, Texture)
         self.assert_close(radiance.image.pixels[0] * radiance.scale, [(8, 4, 2), (1, 1, 1)], 1e-6)
 
+    def test_masked_lamps(self) -> None:
+        """A mask does not dim a lamp's light in Mitsuba; here a surface emits its radiance times its opacity."""
+        mask = '<bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="diffuse"/></bsdf>'
+        material = self.read(f'<shape type="rectangle">{mask}{self.LAMP}</shape>').parts[0].material
+        self.assert_close(np.array(material.radiance) * material.opacity, (10, 20, 30))
+        material = self.read(f'<shape type="rectangle"><bsdf type="null"/>{self.LAMP}</shape>').parts[0].material
+        self.assertEqual(material.opacity, 1)
+        self.assert_close(material.radiance, (10, 20, 30))
+        self.assert_close(material.base_colour, (0, 0, 0))
+        self.assert_noted("a lamp that light passes through")
+
     def test_two_emitters(self) -> None:
         self.assertIn("has 2 <emitter>", self.problem(f'<shape type="rectangle">{self.LAMP}{self.LAMP}</shape>'))
 

@@ -35,5 +35,8 @@ def read_max_bounces(integrator: Plugin | None, notes: Notes) -> int | None:
         notes.left_out("hide_emitters: what shines is seen by the camera here", integrator.where)
     if integrator.boolean("strict_normals", False):
         notes.left_out("strict_normals", integrator.where)
+    if others := sorted(integrator.properties.keys() - {"max_depth", "hide_emitters", "strict_normals", *_PLAIN}):
+        notes.left_out(f"parameters of the integrator \"{integrator.type}\": {', '.join(others)}", integrator.where)
+        integrator.ignore(*others)
     integrator.note_rest(notes)
     return None if depth == -1 else max(depth - 1, 0)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from importer.materials import models
+from importer.materials.parameters import scaled
 from importer.mitsuba.colours import Use
 from importer.mitsuba.materials import MaterialReader
 from importer.mitsuba.normal_maps import suited
@@ -14,7 +15,7 @@ from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, ShapeReader
 from importer.mitsuba.transforms import mirrors
 from importer.problems import ImportProblem, Notes
-from importer.scene import BLACK, Material, Part
+from importer.scene import BLACK, Colour, Material, Part, Texture
 
 GROUPS = ("shapegroup", "instance", "merge")
 _MAX_PARTS = 1_000_000  # with all instances
@@ -90,6 +91,18 @@ class PartReader:
             material = models.diffuse("default", (grey, grey, grey), self.notes, shape.where)
         return self._lit(material, emitter, shape) if emitter else material
 
+    def _masked_lamp(self, material: Material, radiance: Colour, emitter: Plugin) -> tuple[Material, Colour]:
+        """Mitsuba's masks pass light but do not dim that of a lamp (Mask::eval concerns scattering alone); here a surface
+        emits as often as it is there."""
+        if isinstance(material.opacity, Texture):
+            self.notes.approximated("a lamp with a textured mask, which dims its light here", emitter.where)
+        elif material.opacity == 0.0:
+            self.notes.approximated("a lamp that light passes through (null) as a black one", emitter.where)
+            material = models.diffuse(material.name, BLACK, self.notes, emitter.where)
+        elif material.opacity < 1.0:
+            radiance = scaled(radiance, 1.0 / material.opacity)
+        return material, radiance
+
     def _lit(self, material: Material, emitter: Plugin, shape: Plugin) -> Material:
         """One-sided, as all of Mitsuba's area lights are."""
         if emitter.type != "area":
@@ -98,5 +111,6 @@ class PartReader:
         emitter.ignore("sampling_weight")
         radiance = self.materials.textures.colour(emitter, "radiance", 1.0, Use.EMISSION)
         emitter.note_rest(self.notes)
+        material, radiance = self._masked_lamp(material, radiance, emitter)
         lamp = models.lamp(material, radiance, False, self.notes, emitter.where)
         return replace(lamp, name=f"{material.name} of {shape.id or shape.type}")
