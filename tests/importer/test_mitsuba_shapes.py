@@ -160,6 +160,16 @@ class MeshTest(MitsubaTest):
         normals = self.part(_ROOF).mesh.normals
         self.assert_close(normals[0], unit(np.array([0, 1, 1])))  # two triangles with a right angle each there
 
+    def test_creases(self) -> None:
+        """The roof's two triangles meet at 90 degrees: one normal per corner below that angle, shared ones above."""
+        flat = self.part(_ROOF, '<float name="maxSmoothAngle" value="80"/>', "0.6.0").mesh
+        self.assert_close(flat.normals[flat.triangles], [[(0, 0, 1)] * 3, [(0, 1, 0)] * 3])
+        self.assertEqual(len(flat.positions), 6)
+        smooth = self.part(_ROOF, '<float name="maxSmoothAngle" value="100"/>', "0.6.0").mesh
+        self.assertEqual(len(smooth.positions), 4)
+        self.assert_close(smooth.normals[smooth.triangles[0, 0]], unit(np.array([0, 1, 1])))
+        self.assert_close(smooth.positions[smooth.triangles], flat.positions[flat.triangles])
+
     def test_texture_coordinates(self) -> None:
         """An .obj's v is turned over unless it says otherwise; Mitsuba's own then runs downwards."""
         obj = _TRIANGLE + "f 1/1 2/2 3/3\n"

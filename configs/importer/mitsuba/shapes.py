@@ -13,6 +13,7 @@ from importer.meshes import orient, primitives
 from importer.meshes.obj import read_obj
 from importer.meshes.ply import read_ply
 from importer.meshes.serialized import read_serialized
+from importer.mitsuba.creases import creased
 from importer.mitsuba.files import SceneFolder
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.transforms import mirrors, translation
@@ -63,12 +64,11 @@ class ShapeReader:
         path = self.folder.find(shape.string("filename"), shape.folders, shape.where)
         with self.folder.reading(shape.where):
             mesh = self._from_file(shape, path)
-        is_flat = shape.boolean("face_normals", False)
-        if shape.has("max_smooth_angle") and not is_flat:
-            is_flat = self._is_flat_by_angle(shape)
+        angle = shape.number("max_smooth_angle", 180.0)
+        if shape.boolean("face_normals", False):
             mesh = self._variant(mesh, "flat", orient.flat)
-        if is_flat:
-            mesh = self._variant(mesh, "flat", orient.flat)
+        elif shape.has("max_smooth_angle"):  # which takes the place of normals that the file has
+            mesh = self._variant(mesh, f"creased at {angle}", lambda source: creased(source, angle))
         elif mesh.normals is not None:
             return Geometry(self._variant(mesh, "fronts", orient.fronts_by_normals), to_world)
         else:
@@ -78,13 +78,6 @@ class ShapeReader:
         if mirrors(to_world):
             mesh = self._variant(mesh, "flipped", orient.flipped)
         return Geometry(mesh, to_world)
-
-    def _is_flat_by_angle(self, shape: Plugin) -> bool:
-        """0.6 makes new vertex normals where triangles meet at less than an angle, and creases elsewhere."""
-        is_flat = shape.number("max_smooth_angle", 0.0) < 60.0
-        what = "max_smooth_angle below 60 degrees as face normals" if is_flat else "max_smooth_angle as smooth everywhere"
-        self.notes.approximated(what, shape.where)
-        return is_flat
 
     def _from_file(self, shape: Plugin, path: Path) -> Mesh:
         if shape.type == "serialized":
