@@ -106,8 +106,7 @@ def run(options: argparse.Namespace) -> None:
     notes, outputs = Notes(options.lenient), Outputs(options.out, options.force)
     outputs.check(outputs.glb, outputs.config)
     format_name = format_of(options.scene)
-    inputs = Inputs(options.scene)
-    with progress(lambda: f"{len(inputs.files)} files, {inputs.latest()}"):
+    with Inputs(options.scene) as inputs, progress(lambda: f"{len(inputs.files)} files, {inputs.latest}"):
         scene = _read(options, format_name, notes)
         source = inputs.describe(format_name, scene.source_version)
         totals, config, files = _write(scene, outputs, notes, source)

@@ -21,6 +21,7 @@ class Inputs:
         self.scene = scene
         self.folder = scene.resolve().parent
         self.files: dict[Path, None] = {scene.resolve(): None}
+        self.latest = scene.name  # below the folder, for who waits
         self._is_listening = True
         sys.addaudithook(self._hear)
 
@@ -33,16 +34,16 @@ class Inputs:
             path = Path(os.path.realpath(name))
             if path.is_relative_to(self.folder):
                 self.files[path] = None
+                self.latest = str(path.relative_to(self.folder))
 
-    def stop(self) -> None:
+    def __enter__(self) -> Inputs:
+        return self
+
+    def __exit__(self, *_: object) -> None:
         self._is_listening = False
 
-    def latest(self) -> str:
-        return str(next(reversed(self.files)).relative_to(self.folder))
-
     def describe(self, format_name: str, version: str) -> dict[str, Any]:
-        """As it stands in `asset.extras`."""
-        self.stop()
+        """As it stands in `asset.extras`. What is opened to be hashed is among the files already."""
         files = [path for path in self.files if path.is_file()]
         hashes = {str(path.relative_to(self.folder)): _sha256(path) for path in files}
         return {"file": self.scene.name, "format": format_name, "version": version,
