@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -248,6 +249,14 @@ class Parameters(unittest.TestCase):
         texture = grey(0.25, 1.0)
         made = [parameters.map_colour(t, np.sqrt, "root") for t in (texture, parameters.scaled(texture, 0.25), texture)]
         self.assertEqual([float(parameters.texels(t)[0, 0, 0]) for t in made], [0.5, 0.25, 0.5])
+
+    def test_large_images_of_bytes_stay_bytes(self) -> None:
+        image = Image("large", np.full((3, 5, 3), 100, dtype=np.uint8))
+        with unittest.mock.patch.multiple(parameters, _LARGE=14, _STRIP=5):
+            made = parameters.map_colour(Texture(image), lambda rgb: rgb * 0.5)
+        self.assertEqual(made.image.pixels.dtype, np.uint8)
+        # 100 of 255 is ((0.392157 + 0.055) / 1.055)^2.4 = 0.12744 linear; its half is 71.4 of 255.
+        self.assertEqual(set(np.unique(made.image.pixels)), {71})
 
     def test_two_parameters(self) -> None:
         self.assertEqual(parameters.combine_colours((1.0, 2.0, 3.0), WHITE, np.add), (2.0, 3.0, 4.0))

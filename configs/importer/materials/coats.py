@@ -38,11 +38,9 @@ def _with_coat(material: Material, factor: float, alpha: Number, notes: Notes, w
     return replace(material, clearcoat=factor, clearcoat_roughness=float(mitsuba_roughness(alpha)))  # type: ignore[arg-type]
 
 
-def _dimmed(material: Material, factor: Rgb) -> Material:
-    """Base colour and dielectric lobe times a factor; at most what glTF allows."""
-    base = parameters.map_colour(material.base_colour, lambda c: np.minimum(c * np.array(factor), 1.0)) \
-        if parameters.greatest(parameters.scaled(material.base_colour, factor)) > 1.0 \
-        else parameters.scaled(material.base_colour, factor)
+def _dimmed(material: Material, factor: Rgb, notes: Notes, where: str) -> Material:
+    """Base colour and dielectric lobe times a factor."""
+    base = limits.reflectance(parameters.scaled(material.base_colour, factor), "a colour below a coat", notes, where)
     return replace(material, base_colour=base, specular_colour=parameters.scaled(material.specular_colour, factor))
 
 
@@ -85,7 +83,7 @@ def coated(material: Material, ior: float, alpha: Number, specular: Colour, thic
     absorbed = _absorbed(sigma_a, float(limits.checked_number(thickness, "the thickness of a coat", where)), ior,
                          _is_lambert(material), notes, where)
     red, green, blue = (kept * a for a in absorbed)
-    return _with_coat(_dimmed(material, (red, green, blue)), factor, alpha, notes, where)
+    return _with_coat(_dimmed(material, (red, green, blue), notes, where), factor, alpha, notes, where)
 
 
 def coated_conductor(name: str, coat_eta: float, coat_alpha: Number, thickness: float, albedo: Colour, eta: Rgb, k: Rgb,

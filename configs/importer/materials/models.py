@@ -2,6 +2,8 @@
 
 `dielectric` may return an `InwardGlass` (`is_inward`), whose mesh must be turned inside out."""
 
+from __future__ import annotations
+
 from importer.materials.blends import blended
 from importer.materials.coats import coated, coated_conductor
 from importer.materials.conductors import conductor, conductor_of_reflectance, exact_mirror, indices_of_reflectance

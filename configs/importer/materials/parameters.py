@@ -12,6 +12,8 @@ from importer.images import bake, srgb
 from importer.scene import Colour, Image, Number, Rgb, Texture
 
 Map = Callable[[np.ndarray], np.ndarray]
+_STRIP = 1 << 18  # texels that are looked at together
+_LARGE = 1 << 22  # texels: an image of bytes above that stays one of bytes, or it would take eight times the memory
 
 
 @dataclass(frozen=True)
@@ -65,12 +67,18 @@ def span(parameter: Colour | Number) -> tuple[float, float]:
     return float(ends.min()), float(ends.max())
 
 
-def texture_of(values: np.ndarray, like: Texture, name: str) -> Texture:
-    """A texture of these texels that lies as `like` does; what is above 1 goes into its scale."""
-    values = np.maximum(values, 0.0)
-    greatest = float(values.max(initial=0.0))
-    scale = greatest if greatest > 1.0 else 1.0
-    return replace(like, image=Image(name, values / scale), scale=(scale, scale, scale))
+def _texture_of(texture: Texture, function: Map) -> Texture:
+    """The function of its texels, strip by strip, as each is 24 bytes meanwhile; what is above 1 goes into the scale."""
+    pixels = texture.image.pixels
+    rows = max(1, _STRIP // pixels.shape[1])
+    strips = [replace(texture, image=Image("", pixels[row:row + rows])) for row in range(0, pixels.shape[0], rows)]
+    scale = max(1.0, *(float(function(texels(strip)).max()) for strip in strips))
+    is_kept_in_bytes = pixels.dtype == np.uint8 and pixels[..., 0].size > _LARGE
+    made = np.empty((*pixels.shape[:2], 3), np.uint8 if is_kept_in_bytes else np.float64)
+    for i, strip in enumerate(strips):
+        values = np.clip(function(texels(strip)) / scale, 0.0, 1.0)
+        made[i * rows:(i + 1) * rows] = np.rint(srgb.from_linear(values) * 255.0) if is_kept_in_bytes else values
+    return replace(texture, image=Image(texture.image.name, made), scale=(scale, scale, scale))
 
 
 def mean_rgb(colour: Colour) -> Rgb:
@@ -136,7 +144,7 @@ def _mapped_texture(texture: Texture, function: Map, key: object) -> Texture:
     known = _mapped.setdefault(texture.image, {})
     index = (key, texture.scale)
     if key is None or index not in known:
-        result = texture_of(function(texels(texture)), texture, texture.image.name)
+        result = _texture_of(texture, function)
         if key is None:
             return result
         known[index] = result

@@ -53,11 +53,11 @@ def dielectric_over(name: str, reflectance: Colour, f0: float, specular: Colour,
     if top > 1.0 + 1e-9:
         lost = f"{limits.bound((top - 1.0) * share)}"
         notes.approximated(f"a diffuse lobe that no base colour up to 1 gives, by less than {lost} of reflectance", where)
-        base = parameters.map_colour(reflectance, lambda rho: np.minimum(base_of(rho), 1.0), (source.key, s, "at most 1"))
+        base = parameters.map_colour(reflectance, lambda rho: np.minimum(base_of(rho), 1.0), (source.key, f0, s, "at most 1"))
     elif source.is_proportional:
         base = parameters.scaled(reflectance, float(base_of(np.array(1.0))))
     else:
-        base = parameters.map_colour(reflectance, base_of, (source.key, s))
+        base = parameters.map_colour(reflectance, base_of, (source.key, f0, s))
     _note_angles(reflectance, base, f0, s, parameters.mean_number(alpha), source, notes, where)
     return Material(name, base_colour=base, roughness=mitsuba_roughness(alpha), specular=strength, specular_colour=colour,
                     ior=fresnel.index_of_f0(f0))
