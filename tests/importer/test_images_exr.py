@@ -1,6 +1,6 @@
 """OpenEXR files: some that the library itself wrote, from formulas that are worked out here again, and our own.
 
-The files in `exr` were written by OpenEXR 3.1.5 with channels R, G and B (k = 0, 1, 2) from `WAVES`, `TILES` and `BITS`.
+The files in `exr` were written by OpenEXR 3.1.5 with channels R, G and B (k = 0, 1, 2) from `waves`, `tiles` and `bits`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,9 @@ def bits(width: int, height: int) -> np.ndarray:
     return (96 * x + 3 * y + k).astype(np.uint16).view(np.float16)
 
 
-FILES = {"rle": waves(19, 37), "zip_tiles": waves(23, 17), "piz_half": waves(19, 37), "piz_float": tiles(23, 35),
+FILES = {"rle": waves(19, 37), "zip_tiles": waves(23, 17), "piz_half": waves(19, 37),
+         "pxr24_half": waves(19, 37), "pxr24_float": tiles(23, 35),
+         "piz_float": tiles(23, 35),
          "piz_levels": waves(23, 17), "piz_many_values": bits(180, 32)}
 
 
@@ -89,7 +91,7 @@ class ExrTest(unittest.TestCase):
         three = b"".join(name + b"\0" + struct.pack("<iIii", 2, 0, 1, 1) for name in (b"B", b"G", b"R"))
         self.path.write_bytes(data.replace(three, three.replace(b"B", b"X").replace(b"G", b"Y").replace(b"R", b"Z")))
         np.testing.assert_array_equal(read_exr(self.path), np.full((2, 2, 3), np.float32(0.5)))
-        self.assertIn("neither R, G and B nor Y, but X, A, Z", self.refused(
+        self.assertIn("neither R, G and B nor Y, but 'X', 'A', 'Z'", self.refused(
             data.replace(three, three.replace(b"B", b"X").replace(b"G", b"A").replace(b"R", b"Z"))))
 
     def test_other_primaries(self) -> None:

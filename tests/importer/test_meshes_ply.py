@@ -142,7 +142,7 @@ class PlyTest(unittest.TestCase):
                 (good.replace(b"format binary_little_endian 1.0\n", b""), "no 'format'"),
                 (good.replace(b"list uchar int", b"list float int"), "line 9"),
                 (good.replace(b"vertex_indices", b"corner_indices"), "no list 'vertex_indices'"),
-                (good.replace(b"element face", b"element fase"), "an element 'face'; it has vertex, fase"),
+                (good.replace(b"element face", b"element fase"), "an element 'face'; it has 'vertex', 'fase'"),
                 (good.replace(b"float x", b"float a"), "no x, y and z"),
                 (usual("<", [(0, 1, 5)]), "vertex 5, and there are 5"),
                 (usual("<", [(0, 1, -1)]), "vertex -1"),

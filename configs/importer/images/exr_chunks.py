@@ -60,6 +60,8 @@ def _unpacked(packed: bytes, size: int, width: int, height: int, header: Header)
         return packed  # a block that compression would make longer is stored as it is
     if header.compression == "PIZ":
         return unpacked_piz(packed, width, height, [int(kind[2:]) // 2 for _, kind in header.channels])
+    if header.compression == "PXR24":
+        return _planes_joined(zlib.decompressobj().decompress(packed, size + 1), width, height, header)
     if header.compression == "RLE":
         return _joined(_runs(packed, size))
     return _joined(zlib.decompressobj().decompress(packed, size + 1))
@@ -73,6 +75,21 @@ def _joined(packed: bytes) -> bytes:
     result = np.empty_like(halves)
     result[0::2], result[1::2] = np.split(halves, [(len(halves) + 1) // 2])
     return result.tobytes()
+
+
+def _planes_joined(packed: bytes, width: int, height: int, header: Header) -> bytes:
+    """PXR24: each channel of a line is sums of differences, whose bytes lie in planes, the highest first; floats have
+    lost their lowest byte (ImfPxr24Compressor)."""
+    data, at, lines = np.frombuffer(packed, np.uint8), 0, []
+    for _ in range(height):
+        for _, kind in header.channels:
+            planes = 3 if kind == "<f4" else int(kind[2:])
+            rows = data[at:at + planes * width].reshape(planes, width).astype(np.uint32)
+            shifts = 8 * np.arange(int(kind[2:]) - 1, int(kind[2:]) - 1 - planes, -1, dtype=np.uint32)
+            values = np.cumsum((rows << shifts[:, None]).sum(axis=0, dtype=np.uint32), dtype=np.uint32)
+            lines.append(values.astype(f"<u{kind[2:]}").tobytes())
+            at += planes * width
+    return b"".join(lines)
 
 
 def _runs(packed: bytes, size: int) -> bytes:

@@ -1,7 +1,7 @@
 """OpenEXR files: RGB read as float32, and written for the sky.
 
 Read are single-part files, scan lines or tiles (of several levels the finest), half, float and whole numbers,
-compression none, RLE, ZIPS, ZIP and PIZ; others are refused by name. Source: OpenEXR, "File Layout", and the
+compression none, RLE, ZIPS, ZIP, PIZ and PXR24; others are refused by name. Source: OpenEXR, "File Layout", and the
 library's ImfRleCompressor, ImfZip and ImfTiledMisc for what that leaves open.
 """
 
@@ -35,7 +35,8 @@ def read_exr(path: Path) -> np.ndarray:
         raise ImportProblem(f"{path}: the image cannot be read as OpenEXR: it is truncated or damaged") from error
     names = "RGB" if all(name in header.names for name in "RGB") else "YYY"
     if names[0] not in header.names:
-        raise ImportProblem(f"{path}: the OpenEXR image has neither R, G and B nor Y, but {', '.join(header.names)}")
+        found = ", ".join(ascii(name) for name in header.names)
+        raise ImportProblem(f"{path}: the OpenEXR image has neither R, G and B nor Y, but {found}")
     rgb = np.stack([lines[name].astype(np.float32) for name in names], axis=-1)
     return rgb if names == "YYY" else _in_srgb(rgb, header)
 

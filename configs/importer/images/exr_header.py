@@ -9,7 +9,7 @@ _MAGIC = 20000630
 _LONG_NAMES, _TILED, _DEEP, _PARTS = 0x400, 0x200, 0x800, 0x1000  # bits of the version field
 _PIXEL_TYPES = ("<u4", "<f2", "<f4")
 _COMPRESSIONS = ("none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
-_LINES = {"none": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16, "PIZ": 32}
+_LINES = {"none": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16, "PIZ": 32, "PXR24": 16}
 
 
 class Damaged(Exception):
@@ -87,10 +87,10 @@ def _channels(value: bytes) -> list[tuple[str, str]]:
         name, at = _text(value, at)
         kind, _, x_sampling, y_sampling = struct.unpack_from("<iIii", value, at)
         if (x_sampling, y_sampling) != (1, 1):
-            raise Damaged(f"its channel '{name}' has fewer samples than pixels; "
+            raise Damaged(f"its channel {name!r} has fewer samples than pixels; "
                           "'oiiotool IN.exr --ch R,G,B -o OUT.exr' writes a file that is read")
         if not 0 <= kind < len(_PIXEL_TYPES):
-            raise Damaged(f"its channel '{name}' is of the unknown type {kind}")
+            raise Damaged(f"its channel {name!r} is of the unknown type {kind}")
         channels.append((name, _PIXEL_TYPES[kind]))
         at += 16
     if len(set(name for name, _ in channels)) != len(channels) or not channels:

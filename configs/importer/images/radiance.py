@@ -26,7 +26,7 @@ def read_hdr(path: Path) -> np.ndarray:
     size = data[end + 2:line_end].decode("latin-1").strip()
     match = re.fullmatch(r"-Y (\d{1,9}) \+X (\d{1,9})", size)
     if match is None:
-        raise ImportProblem(f"{path}: the Radiance picture's pixels run as '{size[:40]}'; '-Y height +X width' is read")
+        raise ImportProblem(f"{path}: the Radiance picture's pixels run as {size[:40]!a}; '-Y height +X width' is read")
     height, width = int(match[1]), int(match[2])
     check_size(path, width, height)
     return _colours(_hdr_lines(path, np.frombuffer(data, np.uint8, offset=line_end + 1), width, height))

@@ -38,7 +38,7 @@ def read_ply(path: Path) -> Mesh:
             body.skip(element)
     if vertices is None or faces is None:
         raise ImportProblem(f"{path}: the .ply needs an element 'vertex' and an element 'face'; "
-                            f"it has {', '.join(e.name for e in header.elements) or 'none'}")
+                            f"it has {', '.join(ascii(e.name) for e in header.elements) or 'none'}")
     return finished(path, _mesh(path, vertices, faces))
 
 

@@ -116,7 +116,7 @@ class Body:
             raise self._truncated(element)
         n = raw[0] if size == 1 and prop.count_kind != "i1" else self._view(raw[None], prop.count_kind)[0, 0]
         if not 0 <= n <= len(self._data):  # also where it is NaN
-            raise ImportProblem(f"{self._path}: an element '{element.name}' of the .ply has a list of {n} values")
+            raise ImportProblem(f"{self._path}: an element {element.name!a} of the .ply has a list of {n} values")
         return int(n)
 
     def _size(self, kind: str) -> int:
@@ -142,4 +142,4 @@ class Body:
             raise self._truncated(element)
 
     def _truncated(self, element: Element) -> ImportProblem:
-        return ImportProblem(f"{self._path}: the .ply ends within its {element.count} elements '{element.name}'")
+        return ImportProblem(f"{self._path}: the .ply ends within its {element.count} elements {element.name!a}")

@@ -53,7 +53,7 @@ def read_header(path: Path, data: bytes) -> Header:
         try:
             order = _read_line(line.split(), elements, order)
         except (ValueError, LookupError) as error:
-            raise ImportProblem(f"{path}, line {number}: '{line[:80]}' has no place in a .ply's header: {error}") from error
+            raise ImportProblem(f"{path}, line {number}: {line[:80]!a} has no place in a .ply's header: {error}") from error
     if order is None:
         raise ImportProblem(f"{path}: the .ply's header has no 'format'")
     return Header(order, elements, _end_of_line(data, end))
