@@ -45,8 +45,7 @@ def bits(width: int, height: int) -> np.ndarray:
 
 
 FILES = {"rle": waves(19, 37), "zip_tiles": waves(23, 17), "piz_half": waves(19, 37),
-         "pxr24_half": waves(19, 37), "pxr24_float": tiles(23, 35),
-         "piz_float": tiles(23, 35),
+         "pxr24_half": waves(19, 37), "pxr24_float": tiles(23, 35), "piz_float": tiles(23, 35),
          "piz_levels": waves(23, 17), "piz_many_values": bits(180, 32)}
 
 
