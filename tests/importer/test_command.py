@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -74,9 +75,9 @@ class CommandTest(unittest.TestCase):
         self.out = self.folder / "out"
         self.out.mkdir()
 
-    def run_import(self, *arguments: object) -> subprocess.CompletedProcess:
+    def run_import(self, *arguments: object, program: Path = ROOT / "configs") -> subprocess.CompletedProcess:
         return subprocess.run(["/usr/bin/python3", "-m", "importer", *map(str, arguments)], capture_output=True, text=True,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "configs")})
+                              env={**os.environ, "PYTHONPATH": str(program)})
 
     def refused(self, *arguments: object, code: int = 1) -> str:
         """One line, and nothing written."""
@@ -139,10 +140,14 @@ class CommandTest(unittest.TestCase):
         (self.folder / "lamp.xml").write_text('<scene version="3.0.0"><emitter type="constant"/></scene>')
         (self.folder / "other.xml").write_text(MITSUBA)
         Picture.new("RGB", (2, 2), (9, 8, 7)).save(self.folder / "a.png")
+        # The program itself may lie below the scene's folder.
+        shutil.copytree(ROOT / "configs/importer", self.folder / "importer")
+        shutil.copytree(ROOT / "configs/scenes", self.folder / "scenes", ignore=lambda _, names: [
+            name for name in names if not name.endswith("_file.py")])
         texture = '<texture type="bitmap" name="reflectance"><string name="filename" value="a.png"/></texture>'
         self.scene.write_text(MITSUBA.replace('<rgb name="reflectance" value="0.8, 0.1, 0.1"/>', texture)
                               .replace("<bsdf", '<include filename="lamp.xml"/><bsdf', 1))
-        self.assertEqual(self.run_import(self.scene, self.out / "room.glb").stderr, "")
+        self.assertEqual(self.run_import(self.scene, self.out / "room.glb", program=self.folder).stderr, "")
         source = Glb.read(self.out / "room.glb").document["asset"]["extras"]["source"]
         self.assertEqual([file["name"] for file in source["files"]], ["a.png", "lamp.xml", "meshes/sail.obj", "scene.xml"])
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from importer.problems import ImportProblem
 
+_CODE = (".py", ".pyc", ".so")  # of this program, where it lies below the scene's folder
 _HEAD = 1 << 16  # bytes, enough to tell one format from another
 
 
@@ -32,7 +33,7 @@ class Inputs:
         name, mode = os.fsdecode(arguments[0]), arguments[1]
         if isinstance(mode, str) and not set(mode) & set("wax+"):
             path = Path(os.path.realpath(name))
-            if path.is_relative_to(self.folder):
+            if path.is_relative_to(self.folder) and path.suffix not in _CODE:
                 self.files[path] = None
                 self.latest = str(path.relative_to(self.folder))
 
