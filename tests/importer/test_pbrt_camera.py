@@ -67,6 +67,9 @@ class Transforms(unittest.TestCase):
         np.testing.assert_array_equal(self.matrix("AttributeBegin\nScale 2 2 2\nAttributeEnd"), np.eye(4))
         np.testing.assert_array_equal(self.matrix("TransformBegin\nScale 2 2 2\nTransformEnd"), np.eye(4))
         np.testing.assert_array_equal(self.matrix("Scale 2 2 2\nIdentity"), np.eye(4))
+        part = world('TransformBegin\nScale 2 2 2\nMaterial "dielectric"\nTransformEnd\n' + TRIANGLE)[0].parts[0]
+        np.testing.assert_array_equal(part.to_world, np.eye(4))
+        self.assertEqual(part.material.transmission, 1.0)  # which is no transformation, and stays
         text = 'Translate 1 0 0\nCoordinateSystem "here"\nIdentity\nScale 2 2 2\nCoordSysTransform "here"'
         np.testing.assert_array_equal(self.moved(text, (0, 0, 0)), (1, 0, 0))
 
@@ -134,6 +137,19 @@ class Cameras(unittest.TestCase):
         self.assertAlmostEqual(math.tan(math.radians(camera.vertical_fov or 0) / 2), 0.5)
         self.assertIn("off the camera's axis", problem('Camera "perspective" "float screenwindow" [0 2 -1 1]\nWorldBegin'))
         camera, notes = camera_of('Camera "perspective" "float screenwindow" [-1 1 -1 1]' + film)
+        self.assertIn("pixels that are not square", " ".join(notes))
+
+    def test_lengths_along_the_axes_are_the_picture_s(self) -> None:
+        """A camera that is scaled by 1/2 sees twice as much of the world where rays are parallel, and as much where they
+        meet; one that is shorter along its axis sees more."""
+        film = '\nFilm "rgb" "integer xresolution" 100 "integer yresolution" 100'
+        camera, _ = camera_of('Scale .5 .5 .5\nCamera "orthographic"' + film)
+        self.assertAlmostEqual(camera.half_height, 2)
+        camera, _ = camera_of('Scale .5 .5 .5\nCamera "perspective" "float fov" 90' + film)
+        self.assertAlmostEqual(camera.vertical_fov or 0, 90)
+        camera, notes = camera_of('Scale 1 1 2\nCamera "perspective" "float fov" 90' + film)
+        self.assertAlmostEqual(math.tan(math.radians(camera.vertical_fov or 0) / 2), 2)
+        camera, notes = camera_of('Scale 2 1 1\nCamera "perspective" "float fov" 90' + film)
         self.assertIn("pixels that are not square", " ".join(notes))
 
     def test_frame_aspect_ratio_sets_the_window(self) -> None:

@@ -151,6 +151,11 @@ class Areas(unittest.TestCase):
         self.assertIn("has both", world_problem('AreaLightSource "diffuse" "string filename" "a.pfm" "rgb L" [1 1 1]\n'
                                                 + TRIANGLE, files=files))
 
+    def test_lamps_that_are_not_seen(self) -> None:
+        scene, notes = self.lamp('"rgb L" [2 2 2]', TRIANGLE.strip() + ' "float alpha" 0')
+        np.testing.assert_allclose(scene.parts[0].material.radiance, (2, 2, 2))
+        self.assertIn("not seen", " ".join(said(notes)))
+
     def test_surfaces_without_a_material(self) -> None:
         scene, notes = self.lamp('"rgb L" [1 1 1]', 'Material "interface"\n' + TRIANGLE)
         self.assertEqual(scene.parts, [])
@@ -200,7 +205,12 @@ class Skies(unittest.TestCase):
         scene, _ = world('LightSource "infinite" "string filename" "a.pfm" "float scale" 2', files={"a.pfm": pfm(image)})
         # At x = y = 1/2, z = 1/sqrt 2: r = sqrt(1 - z) and both coordinates are r/2.
         half = math.sqrt(1 - math.sqrt(0.5)) / 2
-        for direction, st in (((0.02, 0.02, 1), (0.5, 0.5)), ((1, 0.01, 0.01), (1, 0.5)), ((-0.01, 1, 0.01), (0.5, 1)),
+        # At an azimuth of 22.5 degrees and z = -1/2, r is sqrt(1/2), of which a quarter goes to t: folded, 1 - r/4 and
+        # 1 - 3 r/4 of the half side.
+        eighth, r = math.pi / 8, math.sqrt(0.5)
+        low = (math.sqrt(0.75) * math.cos(eighth), math.sqrt(0.75) * math.sin(eighth), -0.5)
+        for direction, st in (((0.02, 0.02, 1), (0.5, 0.5)), (low, (1 - r / 8, 1 - 3 * r / 8)),
+                              ((1, 0.01, 0.01), (1, 0.5)), ((-0.01, 1, 0.01), (0.5, 1)),
                               ((0.5, 0.5, math.sqrt(0.5)), (0.5 + half / 2, 0.5 + half / 2)),
                               ((-0.5, 0.5, math.sqrt(0.5)), (0.5 - half / 2, 0.5 + half / 2)),
                               ((0.5, 0.5, -math.sqrt(0.5)), (1 - half / 2, 1 - half / 2)),

@@ -147,6 +147,16 @@ class Version3(unittest.TestCase):
         uber = self.made('Material "uber" "rgb opacity" [.25 .25 .25]')
         self.assertAlmostEqual(float(uber.opacity), 0.25)
 
+    def test_each_material_knows_its_own_roughness(self) -> None:
+        """plastic: "roughness"; substrate and glass: "uroughness" and "vroughness"; metal: all of them."""
+        both = '"float roughness" .25 "float uroughness" .04 "float vroughness" .04 "bool remaproughness" "false"'
+        for kind, roughness, unknown in (("plastic", .5, "uroughness"), ("substrate", .2, "float roughness"),
+                                         ("metal", .2, ""), ("glass", .2, "float roughness")):
+            made, notes = material(f'Material "{kind}" {both}', HEAD_V3)
+            self.assertAlmostEqual(float(made.roughness), roughness, 6, kind)
+            self.assertEqual("the parameter" in " ".join(notes), unknown != "")
+            self.assertIn(unknown, " ".join(notes))
+
     def test_disney(self) -> None:
         made = self.made('Material "disney" "rgb color" [.2 .4 .6] "float metallic" 0.5 "float roughness" 0.3')
         np.testing.assert_allclose(made.base_colour, (.2, .4, .6))

@@ -28,10 +28,12 @@ def read_camera(kind: str, parameters: Parameters, to_world: np.ndarray, film: F
         return Camera(to_world @ _FROM_GLTF, 60.0, 1.0, film.width, film.height)
     if kind not in ("perspective", "orthographic"):
         raise ImportProblem(f'{where}: there is no camera "{kind}"; it must be perspective or orthographic')
-    half_width, half_height = _half_screen(parameters, film, notes)
-    camera = Camera(to_world @ _FROM_GLTF, None, half_height, film.width, film.height)
+    # Lengths along the camera's axes, which the camera of glTF does not have: they widen or narrow its picture.
+    across, up, ahead = np.linalg.norm(to_world[:3, :3], axis=0)
+    half_height = _half_screen(parameters, film, across / up, notes) * up
     if kind == "perspective":
-        camera.half_height = math.tan(math.radians(_field_of_view(parameters)) / 2) * half_height
+        half_height *= math.tan(math.radians(_field_of_view(parameters)) / 2) / ahead
+    camera = Camera(to_world @ _FROM_GLTF, None, half_height, film.width, film.height)
     if film.crop is not None:
         _crop(camera, film, notes, where)
     if kind == "perspective":
@@ -62,8 +64,8 @@ def _field_of_view(parameters: Parameters) -> float:
     return degrees
 
 
-def _half_screen(parameters: Parameters, film: Film, notes: Notes) -> tuple[float, float]:
-    """Half the screen window, which is 1 along the shorter side where the file says nothing."""
+def _half_screen(parameters: Parameters, film: Film, widened: float, notes: Notes) -> float:
+    """Half the screen window's height, which is 1 along the shorter side where the file says nothing."""
     where = str(parameters.place)
     aspect = parameters.number("frameaspectratio", film.width / film.height)
     if aspect <= 0:
@@ -77,9 +79,9 @@ def _half_screen(parameters: Parameters, film: Film, notes: Notes) -> tuple[floa
         half_width, half_height = (right - left) / 2, (top - bottom) / 2
         if abs(left + right) > 1e-4 * half_width or abs(bottom + top) > 1e-4 * half_height:
             notes.refuse("a screen window off the camera's axis", where)
-    if abs(half_width * film.height / (half_height * film.width) - 1) > 0.005:
+    if abs(half_width * widened * film.height / (half_height * film.width) - 1) > 0.005:
         notes.approximated("pixels that are not square as square ones: what is seen across differs", where)
-    return half_width, half_height
+    return float(half_height)
 
 
 def _crop(camera: Camera, film: Film, notes: Notes, where: str) -> None:

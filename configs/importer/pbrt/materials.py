@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Callable, Mapping
+from typing import Callable, Mapping, Sequence
 
 from importer.materials import models, roughness
 from importer.materials import parameters as arithmetic
@@ -15,6 +15,7 @@ from importer.problems import ImportProblem, Notes
 from importer.scene import BLACK, Colour, Material, Number, Rgb, Texture
 
 _DEEPEST_MIX = 32
+_ROUGHNESSES = ("roughness", "uroughness", "vroughness")
 _INVISIBLE = ("", "none", "interface")
 
 
@@ -66,11 +67,12 @@ class Reader:
                 raise ImportProblem(f'{self.where}: "{name}" of {self.parameters.what} is a texture; it must be a spectrum')
         return self.spectra.metal(self.parameters, eta, k, self.state.colour_space)
 
-    def alpha(self, default: float, prefix: str = "") -> Number:
-        """Of "roughness", or of "uroughness" and "vroughness", which win; remapped unless the file says not to."""
-        both = self.number(prefix + "roughness", default)
-        along = [self.textures.number(self.parameters, prefix + name, None, self.state)
-                 for name in ("uroughness", "vroughness")]
+    def alpha(self, default: float, prefix: str = "", names: Sequence[str] = _ROUGHNESSES) -> Number:
+        """Of "roughness", or of "uroughness" and "vroughness", which win; of those that the material knows. Remapped unless
+        the file says not to."""
+        both: Number = default if names[0] != _ROUGHNESSES[0] else self.number(prefix + names[0], default)
+        along = [self.textures.number(self.parameters, prefix + name, None, self.state) if name in names else None
+                 for name in _ROUGHNESSES[1:]]
         remap = self.parameters.flag("remaproughness", True)
         u, v = (roughness.pbrt_alpha(both if value is None else value, remap, self.version) for value in along)
         return roughness.isotropic_alpha(u, v, self.notes, self.where)

@@ -16,6 +16,9 @@ OVERRIDES = ("Kd", "Ks", "Kr", "Kt", "sigma", "roughness", "uroughness", "vrough
              "opacity", "bumpmap", "reflect", "transmit", "color", "metallic", "amount")
 
 
+_ALONG_U_AND_V = ("uroughness", "vroughness")
+
+
 def _matte(reader: Reader) -> Material:
     return models.rough_diffuse(reader.name, reader.colour("Kd", 0.5), reader.number("sigma", 0.0), reader.notes,
                                 reader.where)
@@ -24,7 +27,7 @@ def _matte(reader: Reader) -> Material:
 def _plastic(reader: Reader) -> Material:
     """Its index is 1.5 (PlasticMaterial::ComputeScatteringFunctions)."""
     return models.lambert_and_gloss(reader.name, reader.colour("Kd", 0.25), reader.colour("Ks", 0.25), 1.5,
-                                    reader.alpha(0.1), reader.notes, reader.where)
+                                    reader.alpha(0.1, names=("roughness",)), reader.notes, reader.where)
 
 
 def _metal(reader: Reader) -> Material:
@@ -34,8 +37,9 @@ def _metal(reader: Reader) -> Material:
 
 def _glass(reader: Reader) -> Material:
     reflected, passed = reader.colour("Kr", 1.0), reader.colour("Kt", 1.0)
-    return models.dielectric(reader.name, reader.index("eta", "index"), 1.0, reader.alpha(0.0), reflected, passed,
-                             reader.notes, reader.where)
+    alpha = reader.alpha(0.0, names=_ALONG_U_AND_V)
+    return models.dielectric(reader.name, reader.index("eta", "index"), 1.0, alpha, reflected, passed, reader.notes,
+                             reader.where)
 
 
 def _mirror(reader: Reader) -> Material:
@@ -50,15 +54,15 @@ def _uber(reader: Reader) -> Material:
 
 
 def _substrate(reader: Reader) -> Material:
-    return models.substrate(reader.name, reader.colour("Kd", 0.5), reader.colour("Ks", 0.5), reader.alpha(0.1), reader.notes,
-                            reader.where)
+    return models.substrate(reader.name, reader.colour("Kd", 0.5), reader.colour("Ks", 0.5),
+                            reader.alpha(0.1, names=_ALONG_U_AND_V), reader.notes, reader.where)
 
 
 def _translucent(reader: Reader) -> Material:
     """Kd and Ks, each reflected by one share and passed by another."""
     reflected, passed = reader.colour("reflect", 0.5), reader.colour("transmit", 0.5)
     diffuse, glossy = reader.colour("Kd", 0.25), reader.colour("Ks", 0.25)
-    alpha = reader.alpha(0.1)
+    alpha = reader.alpha(0.1, names=("roughness",))
     if arithmetic.greatest(passed) > 0:
         reader.notes.refuse("light that a translucent surface passes", reader.where)
     return models.lambert_and_gloss(reader.name, _product(diffuse, reflected), _product(glossy, reflected), 1.5, alpha,

@@ -30,7 +30,6 @@ from importer.scene import Camera, Scene
 _BEFORE_THE_WORLD = ("Camera", "Film", "PixelFilter", "Integrator", "Sampler", "Accelerator", "Option")
 _IN_THE_WORLD = ("Shape", "LightSource", "AreaLightSource", "ObjectBegin", "ObjectEnd", "ObjectInstance",
                  "ReverseOrientation", "Material", "NamedMaterial", "MakeNamedMaterial", "Texture")
-_OF_SAMPLES = ("Sampler", "Accelerator")  # how many samples are taken is the config's affair
 
 
 def read_pbrt(path: Path, notes: Notes) -> Scene:
@@ -85,7 +84,7 @@ class _Reader:
         elif directive == "Option":
             read_option(statement, self._notes)
         elif directive in _BEFORE_THE_WORLD:
-            self._options[directive] = statement
+            self._options[directive] = statement  # of Sampler and Accelerator the converged picture has nothing
             if directive == "Camera":
                 self._camera_from_world = self._states.now.to_world
                 self._states.set_camera(np.linalg.inv(self._camera_from_world))

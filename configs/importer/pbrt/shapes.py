@@ -76,7 +76,10 @@ class Shapes:
         parameters.without_effect("emissionfilename")  # by which pbrt chooses points on a lamp, and no more
         parts = [patch.bilinear(positions[row], None if normals is None else normals[row],
                                 None if uvs is None else uvs[row]) for row in corners]
-        return [_finished(assemble.finished(where, _joined(parts)), is_reversed)]
+        joined = assemble.finished(where, _joined(parts))
+        if len(joined.triangles) > 2 * len(corners):
+            self._notes.approximated("bilinear patches that are bent as triangles", str(parameters.place))
+        return [_finished(joined, is_reversed)]
 
     def _ply(self, parameters: Parameters, is_reversed: bool) -> list[Mesh]:
         name = parameters.string("filename", "")
@@ -112,7 +115,7 @@ class Shapes:
         phi = _phi(parameters)
         if max(low, -radius) >= min(high, radius):
             raise ImportProblem(f'{parameters.place}: the sphere has nothing between "zmin" {low:g} and "zmax" {high:g}')
-        return self._once(primitives.pbrt_sphere, (radius, low, high, phi), is_reversed)
+        return self._once(primitives.pbrt_sphere, (radius, low, high, phi), is_reversed, str(parameters.place))
 
     def _disk(self, parameters: Parameters, is_reversed: bool) -> list[Mesh]:
         radius = _size(parameters, "radius", 1.0)
@@ -121,18 +124,21 @@ class Shapes:
             raise ImportProblem(f'{parameters.place}: the disk\'s "innerradius" is {inner:g}; it must be 0 or more and below'
                                 f' "radius", {radius:g}')
         height = parameters.number("height", 0.0)
-        return self._once(primitives.pbrt_disk, (height, radius, inner, _phi(parameters)), is_reversed)
+        sizes = (height, radius, inner, _phi(parameters))
+        return self._once(primitives.pbrt_disk, sizes, is_reversed, str(parameters.place))
 
     def _cylinder(self, parameters: Parameters, is_reversed: bool) -> list[Mesh]:
         low, high = parameters.number("zmin", -1.0), parameters.number("zmax", 1.0)
         if low == high:
             raise ImportProblem(f'{parameters.place}: the cylinder\'s "zmin" and "zmax" are the same; they must differ')
-        radius = _size(parameters, "radius", 1.0)
-        return self._once(primitives.pbrt_cylinder, (radius, low, high, _phi(parameters)), is_reversed)
+        sizes = (_size(parameters, "radius", 1.0), low, high, _phi(parameters))
+        return self._once(primitives.pbrt_cylinder, sizes, is_reversed, str(parameters.place))
 
-    def _once(self, make: Callable[..., Mesh], sizes: tuple[float, ...], is_reversed: bool) -> list[Mesh]:
+    def _once(self, make: Callable[..., Mesh], sizes: tuple[float, ...], is_reversed: bool,
+              where: str) -> list[Mesh]:
         """Equal shapes share their mesh, of which a sphere's has 16 thousand triangles."""
         key = (make, sizes, is_reversed)
+        self._notes.approximated("spheres, disks and cylinders as triangles", where)
         if key not in self._round:
             self._round[key] = _finished(make(*sizes), is_reversed)
         return [self._round[key]]

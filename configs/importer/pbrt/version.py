@@ -26,6 +26,7 @@ _KINDS = {
 }
 _DIRECTIVES = {"Option": 4, "Attribute": 4, "ColorSpace": 4, "ImportBegin": 4, "TransformTimes": 3}
 _TYPES = {"color": 3, "xyz": 3}
+_OF_LIGHTS = {"mapname": 3, "filename": 4, "illuminance": 4, "power": 4, "portal": 4}
 
 
 def version_of(statements: Iterable[Statement]) -> int:
@@ -47,9 +48,13 @@ def _evidence(statement: Statement) -> Iterator[tuple[int, str]]:
         for version, words in _KINDS.get(statement.directive.removeprefix("MakeNamed"), {}).items():
             if kind in words:
                 yield version, f'{statement.directive} "{kind}"'
+    if statement.directive == "Texture" and statement.strings[1] == "color":
+        yield 3, 'a texture of the type "color"'
     for parameter in statement.parameters:
         if parameter.kind in _TYPES:
             yield _TYPES[parameter.kind], f'the type "{parameter.kind}"'
+        if statement.directive == "LightSource" and parameter.name in _OF_LIGHTS:
+            yield _OF_LIGHTS[parameter.name], f'a light\'s "{parameter.name}"'
 
 
 def _kinds(statement: Statement) -> list[str]:

@@ -75,7 +75,8 @@ class World:
         for mesh in meshes:
             made = material if light is None else self._shining(material, light, kind, parameters, mesh, state)
             assert made is not None
-            part = Part(mesh.name, self._fitting(mesh, made), made, state.to_world)
+            name = mesh.name if kind == "plymesh" else f"{kind} of line {parameters.place.line}"
+            part = Part(name, self._fitting(mesh, made), made, state.to_world)
             self._add(self.parts if self._object is None else self._object[1], part, parameters.place)
         parameters.finish(self._notes)
 
@@ -93,6 +94,10 @@ class World:
             self._notes.left_out("surfaces without a material, which nothing sees", str(parameters.place))
             return None, False
         masked = self._materials.masked(material, parameters, state)
+        if masked is None and state.area_light is not None and self._version == 4:
+            # pbrt-v4 keeps such a lamp's light and lets no ray meet it (DiffuseAreaLight, constant alpha of 0).
+            self._notes.approximated("a lamp that is not seen, by its alpha of 0, as one that is", str(parameters.place))
+            return material, False
         return masked, masked is None
 
     def _lamp_of(self, state: State, material: Material | None, parameters: Parameters) -> Definition | None:
