@@ -121,6 +121,8 @@ def main(arguments: list[str] | None = None) -> int:
     except ImportProblem as problem:
         print(f"import: {' '.join(str(problem).split())}", file=sys.stderr)
         return 1
+    except BrokenPipeError:  # who reads the report has seen enough, and the files are there
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         print(f"import: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
