@@ -13,9 +13,10 @@ from importer.images.piz import unpacked_piz
 __all__ = ["Damaged", "read_chunks"]
 
 
-def read_chunks(data: bytes, header: Header) -> np.ndarray:
-    """(height, width), a structure of all channels."""
-    pixels = np.zeros((header.height, header.width), np.dtype(header.channels))
+def read_chunks(data: bytes, header: Header, names: str) -> np.ndarray:
+    """(height, width), a structure of the channels of these names: files of a renderer have dozens of others."""
+    wanted = [(name, kind) for name, kind in header.channels if name in names]
+    pixels = np.zeros((header.height, header.width), np.dtype(wanted))
     count = _count(header)
     if header.size + 8 * count > len(data):
         raise Damaged("it is truncated or damaged")
@@ -51,7 +52,7 @@ def _fill(block: np.ndarray, packed: bytes, header: Header) -> None:
     if len(raw) != size:
         raise Damaged("it is truncated or damaged")
     lines = np.frombuffer(raw, line)
-    for name in header.names:
+    for name in block.dtype.names:
         block[name] = lines[name]
 
 

@@ -28,17 +28,22 @@ def read_exr(path: Path) -> np.ndarray:
     try:
         header = read_header(data)
         check_size(path, header.width, header.height)
-        lines = read_chunks(data, header)
+        names = _names(header)
+        lines = read_chunks(data, header, names)
     except Damaged as error:
         raise ImportProblem(f"{path}: the image cannot be read as OpenEXR: {error}") from error
     except (struct.error, zlib.error, ValueError, LookupError, OverflowError) as error:
         raise ImportProblem(f"{path}: the image cannot be read as OpenEXR: it is truncated or damaged") from error
-    names = "RGB" if all(name in header.names for name in "RGB") else "YYY"
-    if names[0] not in header.names:
-        found = ", ".join(ascii(name) for name in header.names)
-        raise ImportProblem(f"{path}: the OpenEXR image has neither R, G and B nor Y, but {found}")
     rgb = np.stack([lines[name].astype(np.float32) for name in names], axis=-1)
     return rgb if names == "YYY" else _in_srgb(rgb, header)
+
+
+def _names(header: Header) -> str:
+    """Of the channels for red, green and blue."""
+    found = "RGB" if all(name in header.names for name in "RGB") else "YYY"
+    if found[0] not in header.names:
+        raise Damaged(f"it has neither R, G and B nor Y, but {', '.join(ascii(name) for name in header.names)}")
+    return found
 
 
 def _in_srgb(rgb: np.ndarray, header: Header) -> np.ndarray:

@@ -23,15 +23,15 @@ _WHAT = ("vertex", "texture coordinate", "normal")
 def read_obj(path: Path, flip_v: bool) -> Mesh:
     """`flip_v`: v' = 1 - v, Mitsuba's `flip_tex_coords`, which is on by default there. Without vn, `normals` is None."""
     lists: dict[str, list[np.ndarray]] = {"v": [], "vt": [], "vn": []}
-    faces: list[tuple[np.ndarray, np.ndarray]] = []
-    counts = np.zeros(3, np.int64)
+    faces = [(np.empty((0, 3), np.int64), np.empty(0, np.int64))]
+    counts = np.zeros(3, np.int64)  # of v, vt and vn so far
     for block in blocks(path, read_bytes(path)):
         faces.append(_faces(block, counts))
         for k, (kind, width) in enumerate((("v", 3), ("vt", 2), ("vn", 3))):
             rows = _rows(block, kind, width)
             lists[kind].append(rows)
             counts[k] += len(rows)
-    corners, sizes = (np.concatenate(part) if part else np.empty(0, np.int64) for part in zip(*faces)) if faces else ((), ())
+    corners, sizes = (np.concatenate(part) for part in zip(*faces))
     if len(sizes) == 0:
         raise ImportProblem(f"{path}: the .obj has no face, a line such as 'f 1 2 3'")
     _check(path, corners, counts)
@@ -54,9 +54,9 @@ def _rows(block: Block, kind: str, width: int) -> np.ndarray:
         raise block.problem(line, f"'{kind}' is followed by a number that is not finite")
     if (numbers.per_line == width).all():
         return numbers.values.reshape(-1, width)
-    last = np.arange(width) < numbers.per_line[:, None]
+    is_there = np.arange(width) < numbers.per_line[:, None]
     first = (np.cumsum(numbers.per_line) - numbers.per_line)[:, None]
-    return np.where(last, numbers.values[np.where(last, first + np.arange(width), 0)], 0.0)
+    return np.where(is_there, numbers.values[np.where(is_there, first + np.arange(width), 0)], 0.0)
 
 
 def _faces(block: Block, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -96,16 +96,12 @@ def _check(path: Path, corners: np.ndarray, counts: np.ndarray) -> None:
 
 def _unified(values: dict[str, np.ndarray], corners: np.ndarray, triangles: np.ndarray, name: str) -> Mesh:
     """One vertex for each distinct triple of indices."""
-    key = corners[:, 0].copy()
-    parts = [corners[:, 0]]
+    key = corners[:, 0]
     for k in (1, 2):
-        if not corners[:, k].any():
-            continue
         size = int(corners[:, k].max()) + 1
         if int(key.max()) >= np.iinfo(np.int64).max // size:  # the product would not fit: number what is there so far
             key = np.unique(key, return_inverse=True)[1]
         key = key * size + corners[:, k]
-        parts.append(corners[:, k])
     _, first, vertex = np.unique(key, return_index=True, return_inverse=True)
     v, vt, vn = corners[first].T
     normals = _picked(values["vn"], vn)
