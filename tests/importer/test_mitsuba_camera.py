@@ -129,8 +129,23 @@ class CameraTest(MitsubaTest):
         camera = self.read('<sensor type="perspective"><float name="fov" value="40"/></sensor>').camera
         self.assertEqual((camera.width, camera.height), (768, 576))
         self.assert_noted("the pixel filter (gaussian) as a box")
-        self.read(sensor('<float name="fov" value="40"/><float name="near_clip" value="1"/><float name="glow" value="1"/>'))
+        self.read(sensor('<float name="fov" value="40"/><float name="near_clip" value="0.1"/><float name="glow" '
+                         'value="1"/>'))
         self.assertEqual(self.noted(), ['left out: the parameter "glow" of sensor perspective'])
+
+    def test_clipping_planes(self) -> None:
+        """Mitsuba sees from depth near_clip to far_clip; what lies outside of that within the picture is named."""
+        body = '<float name="fov" value="40"/><float name="near_clip" value="{}"/><float name="far_clip" value="{}"/>'
+        wall = ('<shape type="rectangle"><transform name="to_world"><scale value="50"/><translate z="{}"/></transform>'
+                '<bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>')
+        for near, far, depth, expected in ((1, 100, 5, ""), (1, 100, 0.5, "nearer than the near one, at 1"),
+                                           (1, 100, -0.5, ""), (1, 100, 150, "farther than the far one, at 100")):
+            self.read(sensor(body.format(near, far)) + wall.format(depth))
+            self.assertEqual([text.partition("what lies ")[2].partition(", is")[0] for text in self.noted()],
+                             [expected] if expected else [])
+        beside = '<shape type="cube"><transform name="to_world"><translate x="5" z="0.5"/></transform>'
+        self.read(sensor(body.format(1, 100)) + beside + '<bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>')
+        self.assertEqual(self.noted(), [])
 
     def test_what_is_refused(self) -> None:
         cases = {
@@ -142,6 +157,7 @@ class CameraTest(MitsubaTest):
             '<float name="fov" value="40"/><float name="principal_point_offset_x" value="0.1"/>': "shifted camera",
             '<string name="fov" value="wide"/>': "must be a number",
             '<transform name="to_world"><lookat origin="0,0,0" target="0,0,0"/></transform>': "same point",
+            '<transform name="to_world"><scale x="0"/></transform>': "is flat",
         }
         for body, part in cases.items():
             with self.subTest(body):

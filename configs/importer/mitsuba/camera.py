@@ -20,7 +20,7 @@ SENSORS = {
 }
 _FILMS = {"hdrfilm", "ldrfilm", "mfilm", "specfilm"}
 # Of cameras and films, without an effect on what a picture shows.
-_SENSOR_PLAIN = ("near_clip", "far_clip", "focus_distance", "shutter_open", "shutter_close")
+_SENSOR_PLAIN = ("focus_distance", "shutter_open", "shutter_close")
 _FILM_PLAIN = ("file_format", "pixel_format", "component_format", "high_quality_edges", "attach_log", "banner", "compensate",
                "sample_border", "filename", "variable", "digits")
 
@@ -31,7 +31,7 @@ def read_camera(sensor: Plugin, notes: Notes) -> Camera:
                             f"{', '.join(SENSORS)}")
     film = sensor.only("film")
     size, crop = _film_size(film) if film else ((768, 576), (0, 0, 768, 576))
-    sensor.ignore(*_SENSOR_PLAIN)
+    sensor.ignore(*_SENSOR_PLAIN, "near_clip", "far_clip")  # of which clipping.py says more
     sensor.all_of("sampler")
     _refuse_extras(sensor, notes)
     if film:
@@ -39,6 +39,9 @@ def read_camera(sensor: Plugin, notes: Notes) -> Camera:
     else:
         _note_filter(sensor, None, notes)
     to_world = sensor.transform("to_world")
+    lengths = np.linalg.norm(to_world[:3, :3], axis=0)
+    if not abs(np.linalg.det(to_world[:3, :3])) > 1e-6 * np.prod(lengths) > 0:
+        raise ImportProblem(f"{sensor.where}: its to_world is flat; one that turns and moves is right")
     crop = _usable_crop(size, crop, sensor, notes)
     aspect = size[0] / size[1]
     of_whole = crop[1] / size[1]  # the share of the film's height that is rendered

@@ -10,9 +10,9 @@ from importer.materials import models
 from importer.materials.parameters import scaled
 from importer.mitsuba.colours import Use
 from importer.mitsuba.materials import MaterialReader
-from importer.mitsuba.normal_maps import suited
+from importer.mitsuba.normal_maps import NormalMaps
 from importer.mitsuba.plugin import Plugin
-from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, ShapeReader
+from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, Geometry, ShapeReader
 from importer.mitsuba.transforms import mirrors
 from importer.problems import ImportProblem, Notes
 from importer.scene import BLACK, Colour, Material, Part, Texture
@@ -27,6 +27,8 @@ class PartReader:
     materials: MaterialReader
     notes: Notes
     parts: list[Part] = field(default_factory=list)
+    _read: dict[int, tuple[Geometry, Material]] = field(default_factory=dict)  # of shapes, which instances share
+    _normal_maps: NormalMaps = field(default_factory=NormalMaps)
 
     def add(self, shape: Plugin, outer: np.ndarray | None = None) -> None:
         """A shape of the scene, or with `outer` one of an instance's group."""
@@ -60,17 +62,19 @@ class PartReader:
         if len(self.parts) >= _MAX_PARTS:
             raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
                                 "are read")
-        geometry = self.shapes.read(shape)
-        material = self._material(shape)
-        if material.opacity == 0.0 and material.radiance == BLACK:
+        if shape.key not in self._read:
+            self._read[shape.key] = self._geometry_and_material(shape)
+        geometry, material = self._read[shape.key]
+        if material.opacity == 0.0:
             self.notes.left_out("surfaces that nothing sees (null)", shape.where)
             return
-        if models.is_inward(material):
-            geometry = self.shapes.inside_out(geometry)
         to_world = outer @ geometry.to_world
-        if material.normal_map:
-            material = replace(material, normal_map=suited(material.normal_map, geometry.mesh, mirrors(to_world)))
+        material = self._normal_maps.suited(material, geometry.mesh, mirrors(to_world))
         self.parts.append(Part(shape.id or geometry.mesh.name or shape.type, geometry.mesh, material, to_world))
+
+    def _geometry_and_material(self, shape: Plugin) -> tuple[Geometry, Material]:
+        geometry, material = self.shapes.read(shape), self._material(shape)
+        return (self.shapes.inside_out(geometry) if models.is_inward(material) else geometry), material
 
     def _material(self, shape: Plugin) -> Material:
         emitter = shape.only("emitter")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from importer.mitsuba.camera import read_camera
+from importer.mitsuba.clipping import note_clipped
 from importer.mitsuba.integrator import read_max_bounces
 from importer.mitsuba.lights import read_light
 from importer.mitsuba.materials import MaterialReader
@@ -24,7 +25,8 @@ def read_mitsuba(path: Path, notes: Notes, parameters: dict[str, str]) -> Scene:
     """`parameters` are values for the scene's $names, as `mitsuba -D name=value` has them."""
     tree = SceneTree(path, notes, parameters)
     root = tree.read(path)
-    scene = Scene(path.stem, read_camera(_sensor(root, notes), notes))
+    sensor = _sensor(root, notes)
+    scene = Scene(path.stem, read_camera(sensor, notes))
     scene.source_version = tree.version
     scene.max_bounces = read_max_bounces(_integrator(root), notes)
     for emitter in root.all_of("emitter"):
@@ -33,6 +35,7 @@ def read_mitsuba(path: Path, notes: Notes, parameters: dict[str, str]) -> Scene:
     for shape in root.all_of("shape"):
         parts.add(shape)
     scene.parts = parts.parts
+    note_clipped(sensor, scene.camera, scene.parts, notes)
     root.all_of(*_SHARED)
     _refuse_media(root, notes)
     root.note_rest(notes)
