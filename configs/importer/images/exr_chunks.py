@@ -15,7 +15,7 @@ __all__ = ["Damaged", "read_chunks"]
 
 def read_chunks(data: bytes, header: Header, names: str) -> np.ndarray:
     """(height, width), a structure of the channels of these names: files of a renderer have dozens of others."""
-    wanted = [(name, kind) for name, kind in header.channels if name in names]
+    wanted = [(name, kind) for name, kind in header.channels if name in set(names)]
     pixels = np.zeros((header.height, header.width), np.dtype(wanted))
     count = _count(header)
     if header.size + 8 * count > len(data):
