@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "configs"), str(ROOT)]
 
 from analysis import exr  # noqa: E402
+from importer.images import exr_chunks, huffman  # noqa: E402
 from importer.images.exr_file import read_exr, write_exr  # noqa: E402
 from importer.problems import ImportProblem  # noqa: E402
 
@@ -134,6 +135,13 @@ class ExrTest(unittest.TestCase):
         ):
             with self.subTest(part=part):
                 self.assertIn(part, self.refused(data))
+
+    def test_blocks_are_limited(self) -> None:
+        """A file of a few bytes could ask for any amount of memory."""
+        for module, name, file in ((exr_chunks, "_LARGEST", "zip_tiles"), (huffman, "_MOST_BITS", "piz_half")):
+            self.addCleanup(setattr, module, name, getattr(module, name))
+            setattr(module, name, 100)
+            self.assertIn("a block of", self.refused((FOLDER / f"{file}.exr").read_bytes()))
 
     def test_damage_anywhere_is_a_problem_or_a_picture(self) -> None:
         rng = np.random.default_rng(2)

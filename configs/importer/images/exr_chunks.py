@@ -11,6 +11,7 @@ from importer.images.exr_header import Damaged, Header
 from importer.images.piz import unpacked_piz
 
 __all__ = ["Damaged", "read_chunks"]
+_LARGEST = 1 << 29  # of a block, unpacked; usual ones are below one MiB, but a tile may be the whole image
 
 
 def read_chunks(data: bytes, header: Header, names: str) -> np.ndarray:
@@ -48,6 +49,8 @@ def _fill(block: np.ndarray, packed: bytes, header: Header) -> None:
     height, width = block.shape
     line = np.dtype([(name, kind, (width,)) for name, kind in header.channels])
     size = height * line.itemsize
+    if size > _LARGEST:
+        raise Damaged(f"it has a block of {size} bytes; up to {_LARGEST >> 20} MiB are read")
     raw = _unpacked(packed, size, width, height, header)
     if len(raw) != size:
         raise Damaged("it is truncated or damaged")

@@ -15,6 +15,7 @@ from importer.images.exr_header import Damaged
 _SYMBOLS = (1 << 16) + 1  # one more for runs
 _SHORT = 16  # bits of codes that are looked up in a table
 _LONGEST = 57  # of codes that fit in eight bytes at any bit of the first one
+_MOST_BITS = 1 << 25  # of a block; each takes some 20 bytes here, and 32 lines of 8192 pixels have a third of it
 _FEW_ZEROS, _MANY_ZEROS, _LEAST_MANY = 59, 63, 6
 
 
@@ -27,6 +28,8 @@ def decoded(packed: bytes, count: int) -> np.ndarray:
     body = packed[20 + size:]
     if bits > 8 * len(body):
         raise Damaged("a block is truncated")
+    if bits > _MOST_BITS:
+        raise Damaged("a block of compression PIZ is too large; 'oiiotool IN.exr --compression zip -o OUT.exr' changes it")
     windows = _Windows(body, bits)
     starts, symbols, ends = _codes(windows, lengths, bits, high)
     is_run = symbols == high
