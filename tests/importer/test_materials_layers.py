@@ -42,6 +42,11 @@ class Roughness(unittest.TestCase):
         self.assertEqual(roughness.pbrt_roughness(0.0, True, 3), 0.0)
         self.assertEqual(roughness.pbrt_roughness(0.25, False, 3), 0.5)
 
+    def test_more_than_all_is_noted(self) -> None:
+        notes = Notes()
+        self.assertEqual(models.mirror("m", WHITE, notes, "w", 4.0).roughness, 1.0)
+        self.assertIn("an alpha above 1", whats(notes))
+
     def test_anisotropy(self) -> None:
         notes = Notes()
         self.assertEqual(roughness.isotropic_alpha(0.3, 0.3, notes, "w"), 0.3)
@@ -87,6 +92,12 @@ class Coats(unittest.TestCase):
         self.assertIn("another index than 1.5", whats(notes))
         self.assertEqual(self.coat(models.diffuse("d", BLACK, Notes(), "w"), 2.0).clearcoat, 1.0)
 
+    def test_bad_numbers_are_one_sentence(self) -> None:
+        with self.assertRaisesRegex(ImportProblem, "^w: the index of a coat is 0.5; a number from 1 to 1000 would be right"):
+            self.coat(models.diffuse("d", BLACK, Notes(), "w"), 0.5)
+        with self.assertRaisesRegex(ImportProblem, "^w: Kr has a channel that is negative"):
+            models.uber("u", BLACK, BLACK, (0.5, -0.5, 0.5), BLACK, 1.5, 0.1, WHITE, Notes(), "w")
+
     def test_absorption(self) -> None:
         notes = Notes()
         metal = Material("m", base_colour=(0.5, 0.5, 0.5), metallic=1.0, roughness=0.0)
@@ -118,6 +129,9 @@ class Burley(unittest.TestCase):
     def test_specular_is_an_index(self) -> None:
         # 0.5 is F0 = 0.04.
         self.assertAlmostEqual(models.index_of_specular(0.5), 1.5, delta=1e-12)
+        self.assertEqual(models.principled("p", WHITE, Notes(), "w", eta=models.index_of_specular(0.0)).specular, 0.0)
+        with self.assertRaisesRegex(ImportProblem, "^a principled material: specular is 50; a number from 0 to 10"):
+            models.index_of_specular(50.0)
 
     def test_clearcoat_is_a_quarter(self) -> None:
         made = models.principled("p", WHITE, Notes(), "w", clearcoat=0.8, clearcoat_gloss=1.0)

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from importer.materials import fresnel, limits, metals, parameters
-from importer.materials.conductors import worst_of_curve
+from importer.materials.conductors import check_indices, worst_of_curve
 from importer.materials.roughness import mitsuba_roughness
 from importer.problems import ImportProblem, Notes
 from importer.scene import Colour, Material, Number, Rgb
@@ -19,7 +19,7 @@ _COAT_F0 = 0.04  # of KHR_materials_clearcoat
 
 def _factor(eta: float, specular: float, notes: Notes, where: str) -> float:
     """The coat's strength at which it reflects straight on what a coat of this index does."""
-    limits.checked_number(float(eta), "the index of a coat", where, least=1.0)
+    limits.checked_number(float(eta), "the index of a coat", where, least=1.0, most=limits.MOST_INDEX)
     factor = fresnel.f0_of_index(eta) / _COAT_F0 * specular
     if abs(eta - 1.5) > 1e-6:
         notes.approximated("a coat of another index than 1.5 as one of 1.5 with a factor that straight on makes it reflect "
@@ -30,7 +30,7 @@ def _factor(eta: float, specular: float, notes: Notes, where: str) -> float:
 def _with_coat(material: Material, factor: float, alpha: Number, notes: Notes, where: str) -> Material:
     if isinstance(alpha, parameters.Texture):
         notes.approximated("a coat's roughness that varies as its mean", where)
-    alpha = parameters.mean_number(limits.checked_number(alpha, "alpha of a coat", where))
+    alpha = parameters.mean_number(limits.alpha(alpha, notes, where))
     if not parameters.is_constant(material.clearcoat, 0.0):
         notes.approximated("a coat over a coat as the outer one alone", where)
     if alpha >= 1e-4:
@@ -91,10 +91,11 @@ def coated_conductor(name: str, coat_eta: float, coat_alpha: Number, thickness: 
     """pbrt-v4's coatedconductor: a metal seen within the coat, with all reflections between the two and a medium of
     extinction 1 (LayeredBxDF). The base colour is that at which as much light comes back straight on:
     (1 - R) a^2 Rc / (1 - R Rc a^2), with a = exp(-thickness)."""
-    if coat_eta <= 1.0:
+    if not 1.0 < coat_eta < limits.MOST_INDEX:  # false of NaN
         raise ImportProblem(f"{where}: the index of a coat is {coat_eta:g}; above 1 would be right")
     if parameters.greatest(albedo) > 0.0:
         notes.approximated("a coat that scatters as one that only absorbs", where)
+    check_indices(eta, k, where)
     below = tuple(n / coat_eta for n in eta), tuple(a / coat_eta for a in k)
     metal = np.array(metals.f0(*below))  # type: ignore[arg-type]
     worst = worst_of_curve(*below, tuple(metal))  # type: ignore[arg-type]
@@ -105,6 +106,6 @@ def coated_conductor(name: str, coat_eta: float, coat_alpha: Number, thickness: 
     factor = _factor(coat_eta, 1.0, notes, where)
     red, green, blue = (1.0 - r) ** 2 * a2 * metal / (1.0 - r * metal * a2) / (1.0 - factor * _COAT_F0)
     base = Material(name, base_colour=(min(red, 1.0), min(green, 1.0), min(blue, 1.0)), metallic=1.0,
-                    roughness=mitsuba_roughness(limits.checked_number(alpha, "alpha", where)))
+                    roughness=mitsuba_roughness(limits.alpha(alpha, notes, where)))
     return _with_coat(base, factor, coat_alpha, notes, where)
 

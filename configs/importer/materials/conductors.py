@@ -22,18 +22,24 @@ def conductor(name: str, eta: Rgb, k: Rgb, reflectance: Colour, alpha: Number, n
     """`reflectance`: a factor of the whole lobe (Mitsuba's specular_reflectance). Without one a glTF metal, whose base
     colour is F0 and whose F90 is 1. With one, KHR_materials_specular over an index of 0: F0 = factor times F0 and
     F90 = factor, so that a dark metal stays dark at grazing angles."""
-    for values, what in ((eta, "eta"), (k, "k")):
-        for value in values:
-            limits.checked_number(float(value), f"{what} of a conductor", where)
+    check_indices(eta, k, where)
     f0 = metals.f0(eta, k)
     _note_curve(eta, k, f0, notes, where)
-    roughness = mitsuba_roughness(limits.checked_number(alpha, "alpha", where))
+    roughness = mitsuba_roughness(limits.alpha(alpha, notes, where))
     reflectance = limits.reflectance(reflectance, "the factor of a conductor", notes, where)
     if parameters.is_constant(reflectance, 1.0):
         return Material(name, base_colour=f0, metallic=1.0, roughness=roughness)
     strength, colour = strength_and_colour(reflectance, notes, where)
     return Material(name, base_colour=BLACK, roughness=roughness, specular=strength, ior=0.0,
                     specular_colour=parameters.scaled(colour, f0))
+
+
+def check_indices(eta: Rgb, k: Rgb, where: str) -> None:
+    for values, what in ((eta, "eta"), (k, "k")):
+        for value in values:
+            limits.checked_number(float(value), f"{what} of a conductor", where, most=1e6)
+    if min(np.hypot(eta, k)) < 1e-3:
+        raise ImportProblem(f"{where}: a conductor's eta and k are both 0; measured indices would be right")
 
 
 def conductor_of_reflectance(name: str, reflectance: Colour, alpha: Number, notes: Notes, where: str) -> Material:
@@ -43,7 +49,7 @@ def conductor_of_reflectance(name: str, reflectance: Colour, alpha: Number, note
     mean = parameters.mean_rgb(reflectance)
     _note_curve(*indices_of_reflectance(mean), mean, notes, where)
     return Material(name, base_colour=reflectance, metallic=1.0,
-                    roughness=mitsuba_roughness(limits.checked_number(alpha, "alpha", where)))
+                    roughness=mitsuba_roughness(limits.alpha(alpha, notes, where)))
 
 
 def exact_mirror(name: str, reflectance: Colour, alpha: Number, notes: Notes, where: str) -> Material:
@@ -59,9 +65,6 @@ def worst_of_curve(eta: Rgb, k: Rgb, f0: Rgb) -> float:
 
 
 def _note_curve(eta: Rgb, k: Rgb, f0: Rgb, notes: Notes, where: str) -> None:
-    for n, absorption in zip(eta, k):
-        if n == 0.0 and absorption == 0.0:
-            raise ImportProblem(f"{where}: a conductor's eta and k are both 0; measured indices would be right")
     worst = worst_of_curve(eta, k, f0)
     if worst > limits.TOLERANCE:
         notes.approximated(f"a conductor's Fresnel reflectance by Schlick's curve, which is off by {limits.bound(worst)} at "

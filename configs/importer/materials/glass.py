@@ -35,7 +35,7 @@ def dielectric(name: str, int_ior: float, ext_ior: float, alpha: Number, reflect
                notes: Notes, where: str) -> Material:
     """A closed body with `int_ior` behind the fronts of its mesh; `InwardGlass` where that is the smaller one."""
     for index in (int_ior, ext_ior):
-        limits.checked_number(float(index), "an index of refraction", where, least=1e-3)
+        limits.checked_number(float(index), "an index of refraction", where, least=1e-3, most=limits.MOST_INDEX)
     reflectance = limits.reflectance(reflectance, "the factor of what glass reflects", notes, where)
     transmittance = limits.reflectance(transmittance, "the factor of what glass passes", notes, where)
     eta = int_ior / ext_ior
@@ -48,7 +48,7 @@ def dielectric(name: str, int_ior: float, ext_ior: float, alpha: Number, reflect
                 notes, where)
     strength, colour = _lobe(reflectance, notes, where)
     make = InwardGlass if eta < 1.0 else Material
-    return make(name, base_colour=transmittance, roughness=mitsuba_roughness(limits.checked_number(alpha, "alpha", where)),
+    return make(name, base_colour=transmittance, roughness=mitsuba_roughness(limits.alpha(alpha, notes, where)),
                 specular=strength, specular_colour=colour, ior=dense, transmission=1.0, is_thin=False)
 
 
@@ -74,7 +74,7 @@ def thin_dielectric(name: str, int_ior: float, ext_ior: float, reflectance: Colo
                     where: str) -> Material:
     """A thin wall that reflects what both its faces do together: an index of that F0."""
     for index in (int_ior, ext_ior):
-        limits.checked_number(float(index), "an index of refraction", where, least=1e-3)
+        limits.checked_number(float(index), "an index of refraction", where, least=1e-3, most=limits.MOST_INDEX)
     reflectance = limits.reflectance(reflectance, "the factor of what glass reflects", notes, where)
     transmittance = limits.reflectance(transmittance, "the factor of what glass passes", notes, where)
     eta = max(int_ior / ext_ior, ext_ior / int_ior)

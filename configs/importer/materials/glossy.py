@@ -40,7 +40,7 @@ def substrate(name: str, diffuse: Colour, specular: Colour, alpha: Number, notes
     f0 = min(float(np.mean(parameters.mean_rgb(specular))), 0.9999)
     if isinstance(diffuse, Texture) or isinstance(specular, Texture):
         notes.approximated("a substrate with textures: its diffuse lobe by the mean of its Ks", where)
-    mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
+    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
 
     def at(cosines: np.ndarray) -> np.ndarray:
         return (1.0 - f0) * (1.0 - (1.0 - 0.5 * cosines) ** 5)
@@ -57,6 +57,8 @@ def uber(name: str, diffuse: Colour, glossy: Colour, mirrored: Colour, passed: C
          opacity: Colour, notes: Notes, where: str) -> Material:
     """pbrt-v3's uber: Kd, Ks, Kr, Kt and opacity. A mirror beside a rough lobe becomes one lobe; what passes is bent there
     and goes straight on here, since the mesh need not be closed."""
+    diffuse, glossy, mirrored, passed = (limits.reflectance(colour, what, notes, where) for colour, what in (
+        (diffuse, "Kd"), (glossy, "Ks"), (mirrored, "Kr"), (passed, "Kt")))
     has_gloss, has_mirror = (parameters.greatest(c) > 0.0 for c in (glossy, mirrored))
     if has_gloss and has_mirror:
         notes.approximated("a rough lobe and a mirror in one material as the rough lobe with both reflectances", where)

@@ -12,6 +12,9 @@ TOLERANCE = 0.02  # of reflectance: below it a curve counts as the same
 _BOUNDS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
 
 
+MOST_INDEX = 1e3  # of refraction: more is a slip of the pen
+
+
 def bound(error: float) -> str:
     """The least of a few round numbers that the error does not pass."""
     return f"{next((b for b in _BOUNDS if error <= b), error):g}"
@@ -25,6 +28,15 @@ def checked_number(value: Number, what: str, where: str, least: float = 0.0, mos
         right = f"from {least:g} to {most:g}" if np.isfinite(most) else f"of {least:g} or more"
         raise ImportProblem(f"{where}: {what} is {bad:g}; a number {right} would be right")
     return value
+
+
+def alpha(value: Number, notes: Notes, where: str) -> Number:
+    """Of microfacets: glTF's is 1 at most."""
+    checked_number(value, "alpha", where)
+    if parameters.span(value)[1] <= 1.0 + 1e-9:
+        return value
+    notes.approximated("microfacets with an alpha above 1 as with 1", where)
+    return parameters.map_number(value, lambda a: np.minimum(a, 1.0), "at most 1")
 
 
 def reflectance(colour: Colour, what: str, notes: Notes, where: str) -> Colour:

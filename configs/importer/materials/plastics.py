@@ -31,7 +31,8 @@ class Source:
 
 
 def _checked_index(eta: float, where: str) -> float:
-    limits.checked_number(float(eta), "the index of a dielectric surface over that of what is above it", where)
+    limits.checked_number(float(eta), "the index of a dielectric surface over that of what is above it", where,
+                          most=limits.MOST_INDEX)
     if eta <= 1.0:
         raise ImportProblem(f"{where}: the index of a dielectric surface is {eta:g} of that above it; above 1 would be "
                             "right")
@@ -48,16 +49,17 @@ def dielectric_over(name: str, reflectance: Colour, f0: float, specular: Colour,
     def base_of(rho: np.ndarray) -> np.ndarray:
         return source.diffuse_in_all(rho) / share
 
+    key = (source.key, f0, s)
     # A limit in base_of itself would make textures of a mere factor new images.
     top = float(base_of(np.array(parameters.greatest(reflectance))))
     if top > 1.0 + 1e-9:
-        lost = f"{limits.bound((top - 1.0) * share)}"
+        lost = limits.bound((top - 1.0) * share)
         notes.approximated(f"a diffuse lobe that no base colour up to 1 gives, by less than {lost} of reflectance", where)
-        base = parameters.map_colour(reflectance, lambda rho: np.minimum(base_of(rho), 1.0), (source.key, f0, s, "at most 1"))
+        base = parameters.map_colour(reflectance, lambda rho: np.minimum(base_of(rho), 1.0), (*key, "at most 1"))
     elif source.is_proportional:
         base = parameters.scaled(reflectance, float(base_of(np.array(1.0))))
     else:
-        base = parameters.map_colour(reflectance, base_of, (source.key, f0, s))
+        base = parameters.map_colour(reflectance, base_of, key)
     _note_angles(reflectance, base, f0, s, parameters.mean_number(alpha), source, notes, where)
     return Material(name, base_colour=base, roughness=mitsuba_roughness(alpha), specular=strength, specular_colour=colour,
                     ior=fresnel.index_of_f0(f0))
@@ -90,7 +92,7 @@ def plastic(name: str, diffuse: Colour, ior: float, alpha: Number, specular: Col
     eta = _checked_index(ior, where)
     diffuse = limits.reflectance(diffuse, "the diffuse reflectance", notes, where)
     specular = limits.reflectance(specular, "the specular reflectance", notes, where)
-    mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
+    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
     in_all = lobes.passed_in_all(mean_alpha, eta, True)
     inside = lobes.dielectric_in_all(mean_alpha, 1.0 / eta, True) if version >= 3 else 1.0 - in_all / eta ** 2
 
@@ -111,7 +113,7 @@ def coated_diffuse(name: str, reflectance: Colour, eta: float, alpha: Number, th
     eta = _checked_index(eta, where)
     reflectance = limits.reflectance(reflectance, "the reflectance", notes, where)
     thickness = float(limits.checked_number(thickness, "the thickness of a coat", where))
-    mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
+    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
     if parameters.greatest(albedo) > 0.0:
         notes.approximated("a coat that scatters as one that only absorbs", where)
     out, back = _coat_from_below(eta, mean_alpha, thickness)
@@ -147,7 +149,7 @@ def lambert_and_gloss(name: str, diffuse: Colour, specular: Colour, ior: float, 
     eta = _checked_index(ior, where)
     diffuse = limits.reflectance(diffuse, "Kd", notes, where)
     specular = limits.reflectance(specular, "Ks", notes, where)
-    mean_alpha = round(parameters.mean_number(limits.checked_number(alpha, "alpha", where)), 4)
+    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
     if parameters.is_constant(specular, 0.0):
         return Material(name, base_colour=diffuse)
     source = Source(lambda rho: np.asarray(rho, dtype=float), lambda cosines, rho: np.full_like(cosines, rho),

@@ -15,8 +15,9 @@ _LEFT_OUT = {"anisotropic": "the anisotropy of a principled material", "sheen": 
              "flatness": "the flatness of a principled material"}
 
 
-def index_of_specular(specular: float) -> float:
+def index_of_specular(specular: float, where: str = "a principled material") -> float:
     """F0 is 0.08 times `specular` (Burley 2012, section 5.5)."""
+    limits.checked_number(specular, "specular", where, most=10.0)
     return 2.0 / (1.0 - math.sqrt(0.08 * specular)) - 1.0
 
 
@@ -26,7 +27,7 @@ def principled(name: str, base_colour: Colour, notes: Notes, where: str, *, meta
                sheen_tint: Number = 0.0, flatness: Number = 0.0, diff_trans: Number = 0.0) -> Material:
     """`eta`: of Mitsuba's `specular` by index_of_specular. `sheen_tint` has no effect without sheen, which is left out."""
     base_colour = limits.reflectance(base_colour, "the base colour", notes, where)
-    limits.checked_number(eta, "the index of a principled material", where, least=1.0)
+    limits.checked_number(eta, "the index of a principled material", where, least=1.0, most=limits.MOST_INDEX)
     for key, value in (("anisotropic", anisotropic), ("sheen", sheen), ("flatness", flatness)):
         limits.checked_number(value, key, where)
         if not parameters.is_constant(value, 0.0):
@@ -38,9 +39,11 @@ def principled(name: str, base_colour: Colour, notes: Notes, where: str, *, meta
     passes = parameters.mean_number(limits.checked_number(spec_trans, "spec_trans", where, most=1.0))
     if metal < 1.0 and passes < 1.0:
         notes.approximated("Burley's diffuse lobe as Lambert's below a dielectric one", where)
+    # Without an interface there is no lobe, of which Schlick's curve would leave the grazing end.
+    strength = 1.0 if eta > 1.0 + 1e-6 else 0.0
     coat, coat_roughness = _coat(clearcoat, clearcoat_gloss, notes, where)
     return Material(name, base_colour=_base(base_colour, passes, is_thin, notes, where), metallic=metal,
-                    roughness=limits.checked_number(roughness, "roughness", where, most=1.0), specular=1.0,
+                    roughness=limits.checked_number(roughness, "roughness", where, most=1.0), specular=strength,
                     specular_colour=_tint(base_colour, spec_tint, notes, where), ior=eta, transmission=spec_trans,
                     is_thin=is_thin or passes == 0.0, clearcoat=coat, clearcoat_roughness=coat_roughness)
 
@@ -79,7 +82,7 @@ def _tint(colour: Colour, amount: Number, notes: Notes, where: str) -> Colour:
 
 def _coat(clearcoat: Number, gloss: Number, notes: Notes, where: str) -> tuple[Number, float]:
     """A quarter of a coat of index 1.5, with an alpha from 0.1 to 0.001 (Burley 2012, section 5.5)."""
-    limits.checked_number(clearcoat, "clearcoat", where)
+    limits.checked_number(clearcoat, "clearcoat", where, most=4.0)
     if parameters.is_constant(clearcoat, 0.0):
         return 0.0, 0.0
     notes.approximated("the coat's microfacets of a principled material, GTR1's, as GGX's; and what it reflects dims what "

@@ -36,7 +36,7 @@ def mirror(name: str, reflectance: Colour, notes: Notes, where: str, alpha: Numb
     """The same reflectance at all angles. White is a metal of F0 1. Otherwise KHR_materials_specular over an index of 0
     has F0 = colour times strength and F90 = strength, which is the same where the reflectance is grey."""
     reflectance = limits.reflectance(reflectance, "the reflectance of a mirror", notes, where)
-    roughness = mitsuba_roughness(limits.checked_number(alpha, "alpha", where))
+    roughness = mitsuba_roughness(limits.alpha(alpha, notes, where))
     if parameters.is_constant(reflectance, 1.0):
         return Material(name, base_colour=WHITE, metallic=1.0, roughness=roughness)
     strength, colour = strength_and_colour(reflectance, notes, where)
