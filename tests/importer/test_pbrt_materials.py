@@ -110,6 +110,14 @@ class Version4(unittest.TestCase):
         np.testing.assert_allclose(colours, [(1, 0, 0), (.5, .5, .5), (1, 0, 0)])
         self.assertIs(scene.parts[0].material, scene.parts[2].material)
 
+    def test_materials_and_textures_may_be_defined_behind_the_shapes_that_name_them(self) -> None:
+        """pbrt-v4 makes them when it has read the file; pbrt-v3 at once."""
+        text = ('AttributeBegin\nNamedMaterial "a"\n' + TRIANGLE + "AttributeEnd\n"
+                '{} "a" "string type" "{}" "texture {}" "t"\nTexture "t" "spectrum" "constant" "rgb value" [.1 .2 .3]')
+        scene, _ = world(text.format("MakeNamedMaterial", "diffuse", "reflectance"))
+        np.testing.assert_allclose(scene.parts[0].material.base_colour, (.1, .2, .3))
+        self.assertIn('there is no material "a"', world_problem(text.format("MakeNamedMaterial", "matte", "Kd"), HEAD_V3))
+
     def test_unused_materials_are_not_looked_at(self) -> None:
         material('Material "hair"\nMaterial "diffuse"')
 

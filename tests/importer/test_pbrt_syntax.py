@@ -141,7 +141,7 @@ class Problems(unittest.TestCase):
         self.check("AttributeEnd", "AttributeEnd closes nothing")
         self.check("AttributeBegin", "scene.pbrt:4: AttributeBegin has no AttributeEnd")
         self.check("AttributeBegin\nTransformEnd", "TransformEnd closes AttributeBegin of scene.pbrt:4")
-        self.check("ObjectEnd", "ObjectEnd without ObjectBegin")
+        self.check("ObjectEnd", "ObjectEnd closes nothing")
         self.check('ObjectBegin "a"\nObjectBegin "b"', "objects must not hold others")
         self.check('ObjectInstance "a"', 'there is no object "a"')
         self.check("WorldBegin", "a second WorldBegin")

@@ -19,7 +19,7 @@ from importer.pbrt.shapes import Shapes
 from importer.pbrt.skies import Skies
 from importer.pbrt.source import Folder
 from importer.pbrt.spectra import Spectra
-from importer.pbrt.state import States
+from importer.pbrt.state import States, collected
 from importer.pbrt.statements import Statement, read_statements
 from importer.pbrt.textures import Textures
 from importer.pbrt.version import version_of
@@ -62,6 +62,9 @@ class _Reader:
         self._is_world = False
 
     def read(self, statements: list[Statement]) -> Scene:
+        """Takes the list apart."""
+        if self._version == 4:
+            self._states = collected(statements, self._notes)
         statements.reverse()
         while statements:
             self._carry_out(statements.pop())  # so that a mesh's numbers are freed once they are a mesh
@@ -87,7 +90,6 @@ class _Reader:
             self._options[directive] = statement  # of Sampler and Accelerator the converged picture has nothing
             if directive == "Camera":
                 self._camera_from_world = self._states.now.to_world
-                self._states.set_camera(np.linalg.inv(self._camera_from_world))
         elif directive in ("Material", "NamedMaterial", "MakeNamedMaterial", "Texture", "AreaLightSource"):
             self._define(statement)
         elif directive == "MediumInterface":
@@ -107,51 +109,31 @@ class _Reader:
             raise ImportProblem(f"{statement.place}: {statement.directive} stands behind WorldBegin; it must precede it")
 
     def _bracket(self, statement: Statement) -> None:
-        directive, place = statement.directive, statement.place
-        kind = directive.removesuffix("Begin").removesuffix("End")
-        if kind == "World":
-            if directive == "WorldBegin" and self._is_world:
-                raise ImportProblem(f"{place}: a second WorldBegin; a scene has one")
-            if directive == "WorldBegin":
-                self._states.begin_world()
-                self._is_world = True
-            return
-        if directive.endswith("Begin"):
-            self._states.push(kind, place)
-        if directive == "ObjectBegin":
+        if statement.directive == "WorldBegin":
+            if self._is_world:
+                raise ImportProblem(f"{statement.place}: a second WorldBegin; a scene has one")
+            self._is_world = True
+        elif statement.directive == "ObjectBegin":
             self._world.begin_object(statement)
-        if directive == "ObjectEnd":
-            self._world.end_object(place)
-        if directive.endswith("End"):
-            self._states.pop(kind, place)
+        elif statement.directive == "ObjectEnd":
+            self._world.end_object(statement.place)
+        self._states.bracket(statement)
 
     def _define(self, statement: Statement) -> None:
         directive, states = statement.directive, self._states
         name = statement.strings[0]
         if directive == "NamedMaterial":
             if name not in states.now.materials:
-                raise ImportProblem(f'{statement.place}: there is no material "{name}"; MakeNamedMaterial must define it'
-                                    " before")
+                raise ImportProblem(f'{statement.place}: there is no material "{name}"; MakeNamedMaterial must define it')
             states.now = replace(states.now, material=states.now.materials[name])
         elif directive == "Material":
             states.now = replace(states.now, material=states.definition(statement, f'the material "{name}"', "material"))
-        elif directive == "MakeNamedMaterial":
-            states.define("materials", name, states.definition(statement, f'the material "{name}"', "material"))
         elif directive == "AreaLightSource":
             if name not in ("diffuse", "area"):
                 raise ImportProblem(f'{statement.place}: there is no area light "{name}"; it must be diffuse')
             states.now = replace(states.now, area_light=states.definition(statement, f'the area light "{name}"', "light"))
         else:
-            self._define_texture(statement)
-
-    def _define_texture(self, statement: Statement) -> None:
-        name, kind, _ = statement.strings
-        tables = {"float": "number_textures", "spectrum": "colour_textures", "color": "colour_textures"}
-        if kind not in tables:
-            raise ImportProblem(f'{statement.place}: the texture "{name}" is of the type "{kind}"; it must be float or'
-                                " spectrum")
-        definition = self._states.definition(statement, f'the texture "{name}"', "texture")
-        self._states.define(tables[kind], name, definition)
+            states.define(statement)
 
     def _add(self, statement: Statement) -> None:
         now = self._states.now

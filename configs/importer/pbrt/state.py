@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Sequence
 
 import numpy as np
 
@@ -55,27 +56,45 @@ class States:
     def definition(self, statement: Statement, what: str, target: str) -> Definition:
         return Definition(statement, self.parameters(statement, what, target), self.now)
 
-    def define(self, table: str, name: str, definition: Definition) -> None:
-        """Puts a name into one of the state's tables. In pbrt-v3 it is forgotten at AttributeEnd, in pbrt-v4 it is the
-        scene's and can be given once (BasicSceneBuilder::MakeNamedMaterial, ::Texture)."""
-        names = getattr(self.now, table)
+    def define(self, statement: Statement) -> None:
+        """Gives a name to a material or a texture. In pbrt-v3 it is forgotten at AttributeEnd; in pbrt-v4 it is the scene's,
+        and can be given once (BasicSceneBuilder::MakeNamedMaterial, ::Texture)."""
+        name = statement.strings[0]
+        table = "materials" if statement.directive == "MakeNamedMaterial" else _texture_table(statement)
+        names: dict[str, Definition] = getattr(self.now, table)
         if self._version == 4 and name in names:
-            raise ImportProblem(f'{definition.statement.place}: "{name}" has been defined at'
-                                f" {names[name].statement.place}; in pbrt-v4 a name is given once")
+            if names[name].statement is statement:  # as `collected` has found it
+                return
+            raise ImportProblem(f'{statement.place}: "{name}" has been defined at {names[name].statement.place};'
+                                " in pbrt-v4 a name is given once")
+        kind = "material" if table == "materials" else "texture"
+        definition = self.definition(statement, f'the {kind} "{name}"', kind)
         if self._version == 4:
             names[name] = definition
         else:
             self.now = replace(self.now, **{table: {**names, name: definition}})
 
-    def push(self, kind: str, place: Place) -> None:
+    def bracket(self, statement: Statement) -> None:
+        """WorldBegin, AttributeBegin, AttributeEnd and their like."""
+        directive, place = statement.directive, statement.place
+        kind = directive.removesuffix("Begin").removesuffix("End")
+        if directive == "WorldBegin":
+            self.now = replace(self.now, to_world=np.eye(4))
+            self._coordinate_systems["world"] = np.eye(4)
+        elif kind != "World" and directive.endswith("Begin"):
+            self._push(kind, place)
+        elif kind != "World":
+            self._pop(kind, place)
+
+    def _push(self, kind: str, place: Place) -> None:
         if len(self._saved) >= DEEPEST_STATE:
             raise ImportProblem(f"{place}: more than {DEEPEST_STATE} states within each other; each needs its end")
         self._saved.append((kind, place, self.now))
 
-    def pop(self, kind: str, place: Place) -> None:
+    def _pop(self, kind: str, place: Place) -> None:
         if not self._saved or self._saved[-1][0] != kind:
             open_one = f"{self._saved[-1][0]}Begin of {self._saved[-1][1]}" if self._saved else "nothing"
-            raise ImportProblem(f"{place}: {kind}End closes {open_one}; it must close a {kind}Begin")
+            raise ImportProblem(f"{place}: {kind}End closes {open_one}; it must close its own {kind}Begin")
         saved = self._saved.pop()[2]
         self.now = replace(self.now, to_world=saved.to_world) if kind == "Transform" else saved
 
@@ -83,13 +102,6 @@ class States:
         if self._saved:
             kind, place, _ = self._saved[-1]
             raise ImportProblem(f"{place}: {kind}Begin has no {kind}End; each needs its end")
-
-    def begin_world(self) -> None:
-        self.now = replace(self.now, to_world=np.eye(4))
-        self._coordinate_systems["world"] = np.eye(4)
-
-    def set_camera(self, world_from_camera: np.ndarray) -> None:
-        self._coordinate_systems["camera"] = world_from_camera
 
     def apply(self, statement: Statement) -> bool:
         """Whether the statement was one that changes nothing but the state, and has been carried out."""
@@ -110,6 +122,8 @@ class States:
         elif statement.directive == "ActiveTransform":
             self._activate(statement)
         else:
+            if statement.directive == "Camera":
+                self._coordinate_systems["camera"] = np.linalg.inv(self.now.to_world)
             return False
         return True
 
@@ -143,6 +157,32 @@ class States:
             raise ImportProblem(f"{statement.place}: ActiveTransform must be All, StartTime or EndTime")
         if statement.strings[0] != "All":
             self._notes.refuse("the scene moves while the shutter is open (ActiveTransform)", str(statement.place))
+
+
+def collected(statements: Sequence[Statement], notes: Notes) -> States:
+    """The state at the beginning of a scene of pbrt-v4, in which all names are known: pbrt makes materials and textures
+    when it has read the whole file, so that shapes may name what is defined after them."""
+    before = States(Notes(is_lenient=True), 4)
+    for statement in statements:
+        if statement.directive.endswith(("Begin", "End")):
+            before.bracket(statement)
+        elif statement.directive in ("MakeNamedMaterial", "Texture"):
+            before.define(statement)
+        else:
+            before.apply(statement)
+    states = States(notes, 4)
+    known = before.now
+    states.now = State(materials=known.materials, colour_textures=known.colour_textures,
+                       number_textures=known.number_textures)
+    return states
+
+
+def _texture_table(statement: Statement) -> str:
+    name, kind, _ = statement.strings
+    tables = {"float": "number_textures", "spectrum": "colour_textures", "color": "colour_textures"}
+    if kind not in tables:
+        raise ImportProblem(f'{statement.place}: the texture "{name}" is of the type "{kind}"; it must be float or spectrum')
+    return tables[kind]
 
 
 _TRANSFORMS = {
