@@ -197,6 +197,17 @@ class MeshTest(MitsubaTest):
         self.assertIs(parts[0].mesh, parts[1].mesh)
         self.assertIsNot(parts[0].mesh, parts[2].mesh)
 
+    def test_materials_of_an_obj(self) -> None:
+        """0.6 alone has several materials for one .obj, and reads its .mtl file."""
+        self.write("mesh.obj", _TRIANGLE + "f 1 2 3\n")
+        shape = '<shape type="obj"><string name="filename" value="mesh.obj"/>{}</shape>'
+        self.assertIn("several <bsdf>", self.problem(shape.format(GREY * 2), "0.6.0"))
+        self.assertIn("has 2 <bsdf>", self.problem(shape.format(GREY * 2)))
+        self.read(shape.format(""), "0.6.0")
+        self.assert_noted(".mtl")
+        self.read(shape.format(""))
+        self.assertEqual(self.noted(), [])
+
     def test_what_is_wrong_with_files(self) -> None:
         shape = '<shape type="{}"><string name="filename" value="{}"/></shape>'
         self.write("empty.obj", "v 0 0 0\n")

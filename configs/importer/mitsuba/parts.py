@@ -85,7 +85,7 @@ class PartReader:
             self.notes.refuse("light that scatters below a surface (subsurface)", shape.where)
         if shape.all_of("sensor"):
             self.notes.left_out("a sensor on a shape", shape.where)
-        bsdf = shape.only("bsdf")
+        bsdf = self._bsdf(shape)
         if bsdf:
             material = self.materials.read(bsdf)
         elif has_medium and not emitter:
@@ -94,6 +94,18 @@ class PartReader:
             grey = 0.0 if emitter else 0.5
             material = models.diffuse("default", (grey, grey, grey), self.notes, shape.where)
         return self._lit(material, emitter, shape) if emitter else material
+
+    def _bsdf(self, shape: Plugin) -> Plugin | None:
+        """0.6 takes several for the groups of an .obj, by their names there, and those of the .obj's .mtl file."""
+        if not (shape.is_old and shape.type == "obj"):
+            return shape.only("bsdf")
+        bsdfs = shape.all_of("bsdf")
+        if len(bsdfs) > 1:
+            self.notes.refuse("materials for single groups of an .obj (several <bsdf>)", shape.where)
+        if not bsdfs:
+            self.notes.approximated("an .obj without a <bsdf>, for which Mitsuba 0.6 reads its .mtl file, as a grey one",
+                                    shape.where)
+        return bsdfs[0] if bsdfs else None
 
     def _masked_lamp(self, material: Material, radiance: Colour, emitter: Plugin) -> tuple[Material, Colour]:
         """Mitsuba's masks pass light but do not dim that of a lamp (Mask::eval concerns scattering alone); here a surface
