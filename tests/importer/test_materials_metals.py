@@ -139,7 +139,7 @@ class Conductors(unittest.TestCase):
         self.assertEqual(self.notes.rows(), [])
 
     def test_bad_numbers_are_one_sentence(self) -> None:
-        with self.assertRaisesRegex(ImportProblem, "^ball: k of a conductor is nan; a number from 0 to 1e.06 would be right"):
+        with self.assertRaisesRegex(ImportProblem, "^ball: k of a conductor is nan; a number from 0 to 1e.06 would be"):
             models.conductor("m", WHITE, (1.0, math.nan, 1.0), WHITE, 0.1, self.notes, "ball")
         with self.assertRaisesRegex(ImportProblem, "eta and k are both 0"):
             models.conductor("m", BLACK, BLACK, WHITE, 0.1, self.notes, "ball")
