@@ -81,6 +81,13 @@ class Coats(unittest.TestCase):
         for channel, f0 in enumerate((0.9, 0.6, 0.3)):
             self.assertAlmostEqual(gltf_model.reflectance(made, 1.0, channel), 0.04 + 0.96 ** 2 * f0, delta=1e-9)
 
+    def test_over_plastic_both_lobes_have_their_own_factor(self) -> None:
+        plastic = Material("p", base_colour=(0.5,) * 3, specular=1.0, roughness=0.0)
+        made = self.coat(plastic)
+        self.assertAlmostEqual(gltf_model.gloss_reflectance(made, 1.0), 0.96 * 0.04, delta=1e-9)
+        coat = gltf_model.in_all(lambda c: 0.04 + 0.96 * (1 - c) ** 5)
+        self.assertAlmostEqual(made.base_colour[0], 0.36661 / (1 - coat) * 0.5, delta=1e-4)
+
     def test_over_a_factored_mirror(self) -> None:
         made = self.coat(models.mirror("m", (0.5,) * 3, Notes(), "w"))
         self.assertAlmostEqual(gltf_model.reflectance(made, 1.0), 0.04 + 0.96 ** 2 * 0.5, delta=1e-9)
@@ -106,6 +113,14 @@ class Coats(unittest.TestCase):
         self.assertAlmostEqual(made.base_colour[0] / clear.base_colour[0], math.exp(-1.0), delta=1e-9)
         self.assertAlmostEqual(made.base_colour[1], clear.base_colour[1], delta=1e-12)
         self.assertIn("absorbs", whats(notes))
+
+    def test_absorption_over_a_diffuse_surface(self) -> None:
+        # Each way the mean of exp(-0.5 / cos') over the cosines inside, 2 cos d(cos) outside.
+        matt = models.diffuse("d", (0.5,) * 3, Notes(), "w")
+        cosines = (np.arange(10000) + 0.5) / 10000
+        once = (2 * cosines * np.exp(-0.5 / np.sqrt(1 - (1 - cosines ** 2) / 2.25))).mean()
+        made, clear = self.coat(matt, thickness=0.5, sigma_a=WHITE), self.coat(matt)
+        self.assertAlmostEqual(made.base_colour[0] / clear.base_colour[0], once ** 2, delta=1e-5)
 
     def test_pbrts_coated_conductor_straight_on(self) -> None:
         # All reflections between coat and metal: R + T^2 a^2 Rc (1 + R Rc a^2 + ...); a smooth metal within the coat.

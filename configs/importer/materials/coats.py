@@ -38,52 +38,42 @@ def _with_coat(material: Material, factor: float, alpha: Number, notes: Notes, w
     return replace(material, clearcoat=factor, clearcoat_roughness=float(mitsuba_roughness(alpha)))  # type: ignore[arg-type]
 
 
-def _dimmed(material: Material, factor: Rgb, notes: Notes, where: str) -> Material:
-    """Base colour and dielectric lobe times a factor."""
-    base = limits.reflectance(parameters.scaled(material.base_colour, factor), "a colour below a coat", notes, where)
-    return replace(material, base_colour=base, specular_colour=parameters.scaled(material.specular_colour, factor))
-
-
-def _is_lambert(material: Material) -> bool:
-    lobes = (material.specular, material.transmission)
-    return material.metallic == 0.0 and all(parameters.is_constant(lobe, 0.0) for lobe in lobes)
-
-
-def _absorbed(sigma_a: Rgb, thickness: float, eta: float, is_diffuse: bool, notes: Notes, where: str) -> Rgb:
-    """What a coat leaves of light on its way down and up: straight on over a glossy surface, and over a diffuse one the
-    mean over the directions that it has inside, of light from the whole hemisphere."""
-    tau = [max(float(a), 0.0) * thickness for a in sigma_a]
-    if max(tau) == 0.0:
-        return (1.0, 1.0, 1.0)
-    notes.approximated("a coat that absorbs: by the same factor at all angles", where)
-    if not is_diffuse:
-        red, green, blue = (math.exp(-2.0 * t) for t in tau)
-        return red, green, blue
+def _absorbed(sigma_a: Rgb, thickness: float, eta: float) -> tuple[np.ndarray, np.ndarray]:
+    """What a coat leaves of light on its way down and up: from a glossy surface straight on, and from a diffuse one the
+    mean over the directions that light of the whole hemisphere has inside."""
+    tau = np.maximum(np.array(sigma_a, dtype=float), 0.0) * thickness
     inside = np.sqrt(1.0 - (1.0 - fresnel.COSINES ** 2) / eta ** 2)
-    red, green, blue = (float(fresnel.COSINE_WEIGHTS @ np.exp(-t / inside)) ** 2 for t in tau)
-    return red, green, blue
+    return np.exp(-2.0 * tau), (fresnel.COSINE_WEIGHTS @ np.exp(-tau / inside[:, None])) ** 2
+
+
+def _times(colour: Colour, factor: np.ndarray) -> Colour:
+    red, green, blue = (float(f) for f in factor)
+    return parameters.scaled(colour, (red, green, blue))
 
 
 def coated(material: Material, ior: float, alpha: Number, specular: Colour, thickness: float, sigma_a: Rgb, notes: Notes,
            where: str) -> Material:
     """Mitsuba's coating and roughcoating of another material; `ior`: inside over outside.
 
-    Over a diffuse surface Mitsuba's coat passes T(v) T(l) / eta^2 of its lobe (SmoothCoating::eval), 0.37 in all at an
-    index of 1.5, since it leaves out what is reflected inside; glTF's passes 1 - F. The base colour takes the rest, so that
-    as much diffuse light leaves in all. Over a glossy one it passes T twice, and glTF's once."""
+    Of a diffuse lobe Mitsuba's coat passes T(v) T(l) / eta^2 (SmoothCoating::eval), 0.37 in all at an index of 1.5, since
+    it leaves out what is reflected inside; glTF's passes 1 - F. The base colour takes the rest, so that as much diffuse
+    light leaves in all. Of a glossy lobe it passes T twice, and glTF's once."""
     specular = limits.reflectance(specular, "the specular reflectance of a coat", notes, where)
     if not parameters.is_grey(specular) or isinstance(specular, parameters.Texture):
         notes.approximated("a coat's factor that has a colour or varies as its mean", where)
     notes.approximated("a coat over another surface as glTF's, which takes its share by the viewer's angle alone", where)
     factor = _factor(ior, float(np.mean(parameters.mean_rgb(specular))), notes, where)
-    if _is_lambert(material):
-        kept = (1.0 - fresnel.average(ior)) ** 2 / ior ** 2 / (1.0 - factor * fresnel.schlick_average(_COAT_F0))
-    else:
-        kept = (1.0 - fresnel.f0_of_index(ior)) ** 2 / (1.0 - factor * _COAT_F0)
-    absorbed = _absorbed(sigma_a, float(limits.checked_number(thickness, "the thickness of a coat", where)), ior,
-                         _is_lambert(material), notes, where)
-    red, green, blue = (kept * a for a in absorbed)
-    return _with_coat(_dimmed(material, (red, green, blue), notes, where), factor, alpha, notes, where)
+    thickness = float(limits.checked_number(thickness, "the thickness of a coat", where))
+    if max(sigma_a) * thickness > 0.0:
+        notes.approximated("a coat that absorbs: by the same factor at all angles", where)
+    of_gloss, of_diffuse = _absorbed(sigma_a, thickness, ior)
+    of_gloss = of_gloss * (1.0 - fresnel.f0_of_index(ior)) ** 2 / (1.0 - factor * _COAT_F0)
+    of_diffuse = of_diffuse * ((1.0 - fresnel.average(ior)) / ior) ** 2 / (1.0 - factor * fresnel.schlick_average(_COAT_F0))
+    is_diffuse = material.metallic == 0.0 and parameters.is_constant(material.transmission, 0.0)
+    base = limits.reflectance(_times(material.base_colour, of_diffuse if is_diffuse else of_gloss), "a colour below a coat",
+                              notes, where)
+    dimmed = replace(material, base_colour=base, specular_colour=_times(material.specular_colour, of_gloss))
+    return _with_coat(dimmed, factor, alpha, notes, where)
 
 
 def coated_conductor(name: str, coat_eta: float, coat_alpha: Number, thickness: float, albedo: Colour, eta: Rgb, k: Rgb,
