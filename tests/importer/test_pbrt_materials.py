@@ -24,7 +24,7 @@ class Version4(unittest.TestCase):
             np.testing.assert_allclose(material(text)[0].base_colour, (.5, .5, .5))
         made, notes = material('Material "diffuse" "rgb reflectance" [2 .2 .3]')
         np.testing.assert_allclose(made.base_colour, (1, .2, .3))
-        self.assertIn("a reflectance above 1 as 1", notes)
+        self.assertIn("reflectances above 1 as 1", notes)
 
     def test_conductors(self) -> None:
         """F0 = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2); alpha = sqrt(roughness); glTF's roughness is its root."""

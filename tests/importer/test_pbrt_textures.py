@@ -120,6 +120,9 @@ class Textures(unittest.TestCase):
         v3 = self.colour(image.format("color")
                          + 'Texture "t" "color" "scale" "texture tex1" "i" "rgb tex2" [.5 1 1]', HEAD_V3)
         np.testing.assert_allclose(texel(v3, .25, .75), (.5, 0, 0))
+        brighter = self.colour(image.format("color") + 'Texture "t" "color" "scale" "texture tex1" "i" "rgb tex2" [2 2 2]',
+                               HEAD_V3)
+        np.testing.assert_allclose(texel(brighter, .75, .25), [2 * linear(128)] * 3, atol=5e-3)
         mixed = self.colour(image.format("spectrum") + 'Texture "t" "spectrum" "mix" "texture tex1" "i" "rgb tex2" [0 0 1]'
                             ' "float amount" 0.25')
         np.testing.assert_allclose(texel(mixed, .25, .75), (.75, 0, .25), atol=5e-3)

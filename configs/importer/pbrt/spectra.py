@@ -49,14 +49,11 @@ class Spectra:
         return _scaled(rgb, 1 / luminance if luminance > 0 else 0.0)
 
     def reflectance(self, parameters: Parameters, name: str, default: float | None, colour_space: str) -> Rgb | None:
-        """A constant share of light, none above 1."""
+        """A constant share of light, or a factor of one, which may be above 1."""
         parameter = parameters.find(name, *COLOURS)
         if parameter is None:
             return None if default is None else (default, default, default)
-        rgb = self.values(parameter, colour_space)
-        if max(rgb) > 1:
-            self._notes.approximated("a reflectance above 1 as 1", str(parameter.place))
-        return min(rgb[0], 1.0), min(rgb[1], 1.0), min(rgb[2], 1.0)
+        return self.values(parameter, colour_space)
 
     def values(self, parameter: Parameter, colour_space: str) -> Rgb:
         """Of reflectances, indices and absorptions: seen under pbrt-v4's white, D65, or v3's, which is equal energy."""
