@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from PIL import Image as Pillow
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "configs"))
 
 from importer.mitsuba.read import read_mitsuba
 from importer.problems import ImportProblem, Notes
-from importer.scene import Mesh, Part, Scene
+from importer.scene import Material, Part, Scene, Texture
 
 FILM = '<film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="2"/><rfilter type="box"/></film>'
 SENSOR = f'<sensor type="perspective"><float name="fov" value="90"/>{FILM}</sensor>'
@@ -78,5 +80,30 @@ def area(part: Part) -> float:
     return float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2)
 
 
-def centred(mesh: Mesh) -> np.ndarray:
-    return mesh.positions - mesh.positions.mean(axis=0)
+def png(pixels: list[list[tuple[int, int, int]]]) -> bytes:
+    data = io.BytesIO()
+    Pillow.fromarray(np.array(pixels, np.uint8)).save(data, "PNG")
+    return data.getvalue()
+
+
+def linear(byte: int) -> float:
+    value = byte / 255
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def looked_up(texture: Texture, u: float, v: float) -> np.ndarray:
+    """The nearest texel at a point of the surface: row 0 of the image at v = 0."""
+    x, y = texture.image_from_uv @ (u, v, 1)
+    pixels = texture.image.pixels
+    height, width = pixels.shape[:2]
+    texel = pixels[int(np.floor(y * height)) % height, int(np.floor(x * width)) % width, :3]
+    values = np.array([linear(byte) for byte in texel]) if pixels.dtype == np.uint8 else texel
+    return values * texture.scale
+
+
+class MaterialsTest(MitsubaTest):
+    def part(self, bsdf: str, version: str = "3.0.0", shape: str = "rectangle", is_lenient: bool = False) -> Part:
+        return self.read(f'<shape type="{shape}">{bsdf}</shape>', version, is_lenient).parts[0]
+
+    def material(self, bsdf: str, version: str = "3.0.0") -> Material:
+        return self.part(bsdf, version).material

@@ -6,8 +6,8 @@ import unittest
 
 import numpy as np
 
-from mitsuba_scenes import MitsubaTest, world_fronts
-from importer.scene import LightKind, Sky, Texture
+from mitsuba_scenes import MitsubaTest, world_fronts, world_positions
+from importer.scene import LightKind, Part, Sky, Texture
 
 _TURN = '<transform name="to_world"><rotate x="0.3" y="1" z="-0.2" angle="40"/></transform>'
 
@@ -139,6 +139,24 @@ class SkyTest(MitsubaTest):
         self.assertIn("no file", self.problem('<emitter type="envmap"><string name="filename" value="none.exr"/></emitter>'))
 
 
+def irradiance(part: Part, point: np.ndarray, normal: np.ndarray, cells: int = 60) -> np.ndarray:
+    """Of a lamp whose front alone shines, by the middles of small triangles: the sum of L cos cos' dA / r^2."""
+    steps = np.arange(cells)
+    i, j = (x.ravel() for x in np.meshgrid(steps, steps))
+    upper = np.stack([i + 1 / 3, j + 1 / 3], axis=1)[i + j < cells] / cells
+    lower = np.stack([i + 2 / 3, j + 2 / 3], axis=1)[i + j < cells - 1] / cells
+    total = np.zeros(3)
+    for corners, front in zip(world_positions(part)[part.mesh.triangles], world_fronts(part)):
+        edges = np.stack([corners[1] - corners[0], corners[2] - corners[0]])
+        points = corners[0] + np.concatenate([upper, lower]) @ edges
+        rays = points - point
+        distance = np.linalg.norm(rays, axis=1)
+        cosines = np.maximum(rays @ normal / distance, 0) * np.maximum(-rays @ front / distance, 0)
+        area = np.linalg.norm(np.cross(*edges)) / 2 / len(points)
+        total += np.array(part.material.radiance) * (cosines / distance**2).sum() * area
+    return total
+
+
 class AreaLightTest(MitsubaTest):
     LAMP = '<emitter type="area"><rgb name="radiance" value="10, 20, 30"/></emitter>'
 
@@ -149,6 +167,27 @@ class AreaLightTest(MitsubaTest):
         self.assert_close(part.material.radiance, (10, 20, 30))
         self.assertFalse(part.material.emits_both_sides)
         self.assert_close(world_fronts(part), [(0, 0, 1)] * 2)
+
+    def test_irradiance_of_a_lamp(self) -> None:
+        """A square of 2 x 2 at a height of 2 over the point: four times the factor of one whose corner is above it,
+        (A atan(A / sqrt(1 + A^2)) / sqrt(1 + A^2)) / pi with A = 1/2 (Howell's catalogue of view factors, an element and a
+        parallel rectangle)."""
+        root = np.sqrt(1.25)
+        expected = np.pi * np.array([10, 20, 30]) * 4 * 0.5 / root * np.arctan(0.5 / root) / np.pi
+        up, down = '<translate z="2"/>', '<rotate x="1" angle="180"/><translate z="2"/>'
+        for steps, flip, factor in ((down, "false", 1), (up, "false", 0), (up, "true", 1), (down, "true", 0),
+                                    ('<scale z="-1"/>' + up, "false", 1), ('<scale x="-1"/>' + down, "false", 1)):
+            with self.subTest(steps, flip=flip):
+                part = self.read(f'<shape type="rectangle"><transform name="to_world">{steps}</transform>'
+                                 f'<boolean name="flip_normals" value="{flip}"/>{self.LAMP}</shape>').parts[0]
+                self.assert_close(irradiance(part, np.zeros(3), np.array([0, 0, 1.0])), factor * expected, 1e-2)
+
+    def test_irradiance_of_a_ball(self) -> None:
+        """L pi r^2 / d^2 above a surface that faces the ball (Howell, element to sphere), whose radius is 2 and whose distance is 5."""
+        part = self.read('<shape type="sphere"><point name="center" x="0" y="0" z="5"/><float name="radius" value="2"/>'
+                         f"{self.LAMP}</shape>").parts[0]
+        expected = np.pi * np.array([10, 20, 30]) * 4 / 25
+        self.assert_close(irradiance(part, np.zeros(3), np.array([0, 0, 1.0]), 1) / expected, (1, 1, 1), 3e-3)
 
     def test_without_a_bsdf_a_lamp_is_black(self) -> None:
         part = self.read(f'<shape type="rectangle">{self.LAMP}</shape>').parts[0]
