@@ -183,7 +183,8 @@ class AreaLightTest(MitsubaTest):
                 self.assert_close(irradiance(part, np.zeros(3), np.array([0, 0, 1.0])), factor * expected, 1e-2)
 
     def test_irradiance_of_a_ball(self) -> None:
-        """L pi r^2 / d^2 above a surface that faces the ball (Howell, element to sphere), whose radius is 2 and whose distance is 5."""
+        """L pi r^2 / d^2 above a surface that faces the ball (Howell, an element and a sphere) of radius 2 at a
+        distance of 5."""
         part = self.read('<shape type="sphere"><point name="center" x="0" y="0" z="5"/><float name="radius" value="2"/>'
                          f"{self.LAMP}</shape>").parts[0]
         expected = np.pi * np.array([10, 20, 30]) * 4 / 25
