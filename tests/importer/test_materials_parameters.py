@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 import unittest
 import unittest.mock
@@ -34,11 +33,11 @@ class Roughness(unittest.TestCase):
     def test_pbrt(self) -> None:
         # v4: alpha = sqrt(0.0625) = 0.25. v3, with x = ln 0.1 = -2.302585:
         # 1.62142 - 0.819955 * 2.302585 + 0.1734 * 5.301898 - 0.0171201 * 12.20807 + 0.000640711 * 28.11013 = 0.461761.
-        self.assertEqual(roughness.pbrt_roughness(0.0625, True, 4), 0.5)
-        self.assertEqual(roughness.pbrt_roughness(0.0625, False, 4), 0.25)
-        self.assertAlmostEqual(roughness.pbrt_roughness(0.1, True, 3), math.sqrt(0.461761), delta=1e-5)
-        self.assertEqual(roughness.pbrt_roughness(0.0, True, 3), 0.0)
-        self.assertEqual(roughness.pbrt_roughness(0.25, False, 3), 0.5)
+        self.assertEqual(roughness.pbrt_alpha(0.0625, True, 4), 0.25)
+        self.assertEqual(roughness.pbrt_alpha(0.0625, False, 4), 0.0625)
+        self.assertAlmostEqual(roughness.pbrt_alpha(0.1, True, 3), 0.461761, delta=1e-5)
+        self.assertEqual(roughness.pbrt_alpha(0.0, True, 3), 0.0)
+        self.assertEqual(roughness.pbrt_alpha(0.25, False, 3), 0.25)
 
     def test_more_than_all_is_noted(self) -> None:
         notes = Notes()

@@ -42,11 +42,6 @@ def pbrt_alpha(roughness: Number, remap: bool, version: int) -> Number:
     return parameters.map_number(roughness, lambda r: np.where(r > 0.0, _alpha_of_v3(r), 0.0), "v3")
 
 
-def pbrt_roughness(roughness: Number, remap: bool, version: int) -> Number:
-    """glTF's roughness of pbrt's: the fourth root of v4's where it is remapped."""
-    return mitsuba_roughness(pbrt_alpha(roughness, remap, version))
-
-
 def isotropic_alpha(alpha_u: Number, alpha_v: Number, notes: Notes, where: str) -> Number:
     """One alpha for two: the geometric mean, which keeps the density 1/(pi alpha_u alpha_v) of microfacets that face
     the normal."""
