@@ -22,7 +22,7 @@ def area(mesh: Mesh) -> float:
 
 
 def at(mesh: Mesh, point: tuple[float, float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Texture coordinates and normal of the surface nearest to the point, interpolated in its triangle as a renderer does."""
+    """Texture coordinates and normal of the surface nearest to the point, between the corners of its triangle."""
     p = np.asarray(point, float)
     a, b, c = (mesh.positions[mesh.triangles[:, k]] for k in range(3))
     n = area_vectors(mesh)
