@@ -55,8 +55,8 @@ def rgb_of_plugin(plugin: Plugin, use: Use) -> Rgb:
     plugin.ignore("unbounded", "wavelength_min", "wavelength_max")
     if not found:
         return 1.0, 1.0, 1.0
-    tag = "spectrum" if plugin.type == "uniform" else found.tag
-    return rgb_of_property(Property(tag, found.value, found.where), use, plugin.is_old)
+    # The plugin is grey in Mitsuba's rgb variants, whose parser has the other colour for <spectrum value="..."> alone.
+    return rgb_of_property(Property("float", found.value, found.where), use, plugin.is_old)
 
 
 def _d65(plugin: Plugin, use: Use) -> Rgb:
