@@ -11,9 +11,6 @@ from importer.materials import parameters
 from importer.problems import ImportProblem, Notes
 from importer.scene import Number
 
-# Below it glTF's alpha is a mirror here (docs/materials.md): roughness 0.005.
-LEAST_ALPHA = 0.005 ** 2
-
 
 def mitsuba_roughness(alpha: Number) -> Number:
     """glTF's roughness of an alpha; where alpha is a texture, texel by texel."""
@@ -32,7 +29,8 @@ def _alpha_of_v3(roughness: np.ndarray) -> np.ndarray:
 
 
 def pbrt_alpha(roughness: Number, remap: bool, version: int) -> Number:
-    """pbrt's alpha. A roughness of 0 stays smooth, although v3 makes 0.0013 of 0.001 by its polynomial."""
+    """pbrt's alpha. A roughness of 0 stays smooth, as v3's glass has it (GlassMaterial); of v3's other materials the
+    polynomial makes 0.047 of it."""
     if version not in (3, 4):
         raise ValueError(f"pbrt has versions 3 and 4, not {version}")
     if not remap:
