@@ -59,6 +59,9 @@ class Reading(unittest.TestCase):
             self.assertIn("must have a multiple of 3", words)
             again = problem(text.replace(' "rgb L" 1', "").format(film, material) + '\nMaterial "nonsense"\nShape "sphere"')
             self.assertIn(f'no material "nonsense" in pbrt-v{version}', again)
+        plain = 'Camera "perspective"\nWorldBegin\nMaterial "?"\nShape "sphere"'
+        self.assertIn("pbrt-v4", problem(plain))
+        self.assertIn("pbrt-v3", problem(plain + "\nWorldEnd"))
         mixed = world_problem('Material "matte"\nMaterial "conductor"')
         self.assertIn('scene.pbrt:2: Film "rgb" is of pbrt-v4, and Material "matte" of scene.pbrt:4 is of pbrt-v3', mixed)
 
@@ -152,6 +155,7 @@ class Problems(unittest.TestCase):
 
     def test_names(self) -> None:
         self.check('NamedMaterial "a"', 'there is no material "a"')
+        self.check('MakeNamedMaterial "a"\nNamedMaterial "a"\n' + TRIANGLE, 'the material "a" has no "string type"')
         self.check('CoordSysTransform "a"', 'there is no coordinate system "a"')
         self.check('Material "diffuse" "texture reflectance" "a"\nShape "sphere"', 'names the texture "a"')
         self.check('Texture "a" "colour" "constant"', "must be float or spectrum")

@@ -144,6 +144,8 @@ class Materials:
     def _make(self, definition: Definition) -> Material | None:
         parameters = definition.parameters
         is_named = definition.statement.directive == "MakeNamedMaterial"
+        if is_named and not parameters.has("type"):
+            raise ImportProblem(f'{parameters.place}: {parameters.what} has no "string type"; it must say which it is')
         kind = parameters.string("type", "") if is_named else definition.statement.strings[0]
         if kind in _INVISIBLE:
             parameters.finish(self._notes)

@@ -23,7 +23,6 @@ from importer.scene import Mesh
 _REFUSED = {"curve": "hair and grass as curves", "loopsubdiv": "a subdivision surface", "nurbs": "a NURBS surface",
             "heightfield": "a height field", "cone": "a cone", "paraboloid": "a paraboloid",
             "hyperboloid": "a hyperboloid"}
-_OF_ALL = ("alpha", "shadowalpha")  # read with the material
 _DEFAULT_UVS = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)])
 
 

@@ -169,16 +169,17 @@ class Textures:
         where = str(parameters.place)
         is_png = name.lower().endswith(".png")
         encoding = parameters.string("encoding", "sRGB") if self._version == 4 else "sRGB"
-        words = encoding.split()
         if self._version == 3 and not parameters.flag("gamma", True):
-            encoding = "linear"
-        elif words and words[0] == "gamma" and len(words) == 2 and is_png:
-            return *self._image(name, True, where, is_number), _exponent(words[1], parameters)
+            return *self._image(name, True, where, is_number), 1.0
+        exponent = 1.0
+        if encoding.startswith("gamma "):
+            exponent = _exponent(encoding.removeprefix("gamma "), parameters)
         elif encoding not in ("sRGB", "linear"):
             raise ImportProblem(f'{where}: there is no encoding "{encoding}"; it must be sRGB, linear or gamma with a'
                                 " number")
-        is_linear = encoding == "linear" and (is_png or self._version == 3)
-        return *self._image(name, True if is_linear else None, where, is_number), 1.0
+        if not is_png or encoding == "sRGB":
+            return *self._image(name, None, where, is_number), 1.0
+        return *self._image(name, True, where, is_number), exponent
 
     def _image(self, name: str, is_linear: bool | None, where: str, is_number: bool = False) -> tuple[Image, float]:
         """An image with values up to 1, and their factor."""

@@ -30,15 +30,19 @@ _OF_LIGHTS = {"mapname": 3, "filename": 4, "illuminance": 4, "power": 4, "portal
 
 
 def version_of(statements: Iterable[Statement]) -> int:
-    """4 for a file that reads as either. A file with words of both is neither, and is not guessed at."""
+    """A file with words of both is neither, and is not guessed at. One that reads as either is v3 if it has the WorldEnd
+    that only v3 needs."""
     found: dict[int, tuple[str, Place]] = {}
+    otherwise = 4
     for statement in statements:
+        if statement.directive == "WorldEnd":
+            otherwise = 3
         for version, word in _evidence(statement):
             found.setdefault(version, (word, statement.place))
         if len(found) == 2:
             raise ImportProblem(f"{found[4][1]}: {found[4][0]} is of pbrt-v4, and {found[3][0]} of {found[3][1]} is of"
                                 " pbrt-v3; a scene must be of one version")
-    return next(iter(found), 4)
+    return next(iter(found), otherwise)
 
 
 def _evidence(statement: Statement) -> Iterator[tuple[int, str]]:
