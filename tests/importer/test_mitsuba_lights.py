@@ -89,8 +89,8 @@ class SkyTest(MitsubaTest):
         body = '<emitter type="constant"><spectrum name="radiance" value="2"/></emitter>'
         self.assert_close(self.read(body, "0.6.0").sky.radiance, (2, 2, 2))
         self.assert_close(self.read(body).sky.radiance, (2 * 1.2048, 2 * 0.9483, 2 * 0.9089), 1e-3)
-        plugin = ('<emitter type="constant"><spectrum type="uniform" name="radiance"><float name="value" value="2"/></spectrum>'
-                  "</emitter>")
+        plugin = ('<emitter type="constant"><spectrum type="uniform" name="radiance"><float name="value" value="2"/>'
+                  "</spectrum></emitter>")
         self.assert_close(self.read(plugin).sky.radiance, (2, 2, 2))
         self.assert_close(self.read(body.replace("spectrum", "float")).sky.radiance, (2, 2, 2))
 
