@@ -62,6 +62,12 @@ class Version4(unittest.TestCase):
         self.assertAlmostEqual(float(made.roughness), 0.2)
         made, _ = material('Material "dielectric" "float eta" 2')
         self.assertEqual(made.ior, 2)
+        made, notes = material('Material "dielectric" "spectrum eta" [400 1.6 589.3 1.55 700 1.5]')
+        self.assertAlmostEqual(made.ior, 1.55)
+        self.assertIn("dispersion: one index at all wavelengths", notes)
+        made, notes = material('Material "dielectric" "spectrum eta" [400 1.6 700 1.6]')
+        self.assertAlmostEqual(made.ior, 1.6)
+        self.assertNotIn("dispersion", " ".join(notes))
         # R of one face is 1/25; both together 2 R / (1 + R) = 1/13.
         made, _ = material('Material "thindielectric"')
         self.assertTrue(made.is_thin)

@@ -22,6 +22,7 @@ _MOST_SPECTRUM_BYTES = 1 << 20
 _CHROMATICITIES = {"dci-p3": ((.680, .320), (.265, .690), (.150, .060), (.3127, .3290)),
                    "rec2020": ((.708, .292), (.170, .797), (.131, .046), (.3127, .3290)),
                    "aces2065-1": ((.7347, .2653), (0., 1.), (.0001, -.077), (.32168, .33767))}
+_YELLOW = 589.3  # nm, the line D, at which indices are given
 _METAL_FILE = re.compile(r"(\w+)\.(?:eta|k)\.spd")
 
 
@@ -91,8 +92,15 @@ class Spectra:
         assert parameter is not None
         if _names(parameter) and not _is_file(parameter):
             return indices.named_index(str(parameter.values[0]), self._notes, str(parameter.place))
-        self._notes.approximated("dispersion: the mean index at all wavelengths", str(parameter.place))
-        return float(np.mean(self.values(parameter, "srgb")))
+        if parameter.kind == "spectrum":
+            pairs = self._pairs(parameter)
+            values, at_yellow = pairs[:, 1], float(np.interp(_YELLOW, pairs[:, 0], pairs[:, 1]))
+        else:
+            values = np.array(self.values(parameter, "srgb"))
+            at_yellow = float(values.mean())
+        if np.ptp(values) > 1e-6:
+            self._notes.approximated("dispersion: one index at all wavelengths", str(parameter.place))
+        return at_yellow
 
     def _plain(self, parameter: Parameter, colour_space: str) -> Rgb:
         values = np.asarray(parameter.values, dtype=float)
