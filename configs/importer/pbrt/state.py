@@ -168,7 +168,7 @@ def collected(statements: Sequence[Statement], notes: Notes) -> States:
             before.bracket(statement)
         elif statement.directive in ("MakeNamedMaterial", "Texture"):
             before.define(statement)
-        else:
+        elif statement.directive in ("ColorSpace", "Attribute"):  # on which definitions depend, and on no matrix
             before.apply(statement)
     states = States(notes, 4)
     known = before.now
