@@ -92,6 +92,13 @@ class ModelsTest(MaterialsTest):
             self.assertAlmostEqual(plastic.roughness, roughness)
             self.assertEqual(plastic.specular, 1)
 
+    def test_what_a_rough_surface_reflects_inside_differs_between_versions(self) -> None:
+        """Of white below a surface of alpha 0.3 version 3 keeps more, since it counts once scattered light alone."""
+        body = '<bsdf type="roughplastic"><float name="alpha" value="0.3"/><rgb name="{}" value="0.99"/></bsdf>'
+        bases = [max(self.material(body.format(name), version).base_colour)
+                 for name, version in (("diffuseReflectance", "0.6.0"), ("diffuse_reflectance", "3.0.0"))]
+        self.assertGreater(bases[0], 1.3 * bases[1])
+
     def test_masks_blends_and_nests(self) -> None:
         inner = '<bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf>'
         self.assertEqual(self.material(f'<bsdf type="mask">{inner.format(1)}</bsdf>').opacity, 0.5)

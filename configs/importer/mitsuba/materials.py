@@ -151,7 +151,7 @@ class MaterialReader:
         return models.plastic(name, self.textures.colour(bsdf, "diffuse_reflectance", 0.5),
                               self._relative_index(bsdf, "polypropylene"), alpha,
                               self.textures.colour(bsdf, "specular_reflectance", 1.0), bsdf.boolean("nonlinear", False),
-                              self.notes, bsdf.where)
+                              self.notes, bsdf.where, 0 if bsdf.is_old else 3)
 
     def _phong(self, bsdf: Plugin, name: str) -> Material:
         exponent = self.textures.number(bsdf, "exponent", 30.0)

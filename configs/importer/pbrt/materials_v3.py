@@ -25,7 +25,10 @@ def _matte(reader: Reader) -> Material:
 
 
 def _plastic(reader: Reader) -> Material:
-    """Its index is 1.5 (PlasticMaterial::ComputeScatteringFunctions)."""
+    """Its index is 1.5 (PlasticMaterial::ComputeScatteringFunctions), but the two sides have changed places there: it
+    reflects as a surface does that is seen from within, all beyond 42 degrees."""
+    reader.notes.approximated("pbrt-v3's plastic, whose gloss is that of its inner side, by the gloss of its outer side",
+                              reader.where)
     return models.lambert_and_gloss(reader.name, reader.colour("Kd", 0.25), reader.colour("Ks", 0.25), 1.5,
                                     reader.alpha(0.1, names=("roughness",)), reader.notes, reader.where)
 
