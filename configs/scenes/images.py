@@ -5,15 +5,14 @@ Everything repeats after the image's edge, so that a surface of any size can be 
 
 from __future__ import annotations
 
-import struct
-import zlib
 from dataclasses import dataclass
 from typing import Sequence
 
 import numpy as np
 
+from png_file import png_bytes
+
 GOLDEN = (5**0.5 - 1) / 2
-GREY, RGB, PALETTE = 0, 2, 3  # PNG's colour types
 
 
 @dataclass(frozen=True)
@@ -22,30 +21,9 @@ class Image:
     png: bytes
 
 
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-
-def _filtered(rows: np.ndarray, step: int, kind: int) -> bytes:
-    """PNG's filters 0 to 2: bytes as they are, less the pixel before them, less the pixel above."""
-    before = np.zeros_like(rows)
-    if kind == 1:
-        before[:, step:] = rows[:, :-step]
-    elif kind == 2:
-        before[1:] = rows[:-1]
-    return np.hstack([np.full((len(rows), 1), kind, np.uint8), rows - before]).tobytes()
-
-
 def png(name: str, pixels: np.ndarray, palette: np.ndarray | None = None) -> Image:
     """(height, width) grey values or indices of the palette, or (height, width, 3) RGB; all of 8 bits."""
-    height, width = pixels.shape[:2]
-    step = pixels.shape[2] if pixels.ndim == 3 else 1
-    kind = PALETTE if palette is not None else RGB if step == 3 else GREY
-    rows = pixels.astype(np.uint8).reshape(height, width * step)
-    packed = min((zlib.compress(_filtered(rows, step, f), 9) for f in (0, 1, 2)), key=len)
-    colours = _chunk(b"PLTE", palette.astype(np.uint8).tobytes()) if palette is not None else b""
-    header = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
-    return Image(name, b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + colours + _chunk(b"IDAT", packed) + _chunk(b"IEND", b""))
+    return Image(name, png_bytes(pixels.astype(np.uint8), palette))
 
 
 def _bytes(values: np.ndarray) -> np.ndarray:

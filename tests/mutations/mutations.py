@@ -1,20 +1,6 @@
-"""Deliberate errors, one at a time. `find` must stand exactly once in the file, so that this list cannot rot."""
+"""Deliberate errors of the program, one at a time."""
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Mutation:
-    name: str
-    file: str  # below shaders/, or below the root where it begins with engine/ or experiments/
-    find: str
-    replace: str
-
-    @property
-    def path(self) -> str:
-        """From the root."""
-        return self.file if self.file.startswith(("engine/", "experiments/")) else f"shaders/{self.file}"
-
+from mutation import Mutation
 
 MUTATIONS = [
     Mutation("camera rays through pixel corners alone", "passes/trace.comp", "vec2(pixel) + jitter", "vec2(pixel)"),

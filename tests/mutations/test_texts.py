@@ -3,6 +3,7 @@ tells at once when a source has moved on."""
 
 import unittest
 
+from importer import IMPORTER_MUTATIONS
 from mutations import MUTATIONS
 from protections import PROTECTIONS
 from tree import ROOT, Edit
@@ -16,8 +17,9 @@ class TextsTest(unittest.TestCase):
             self.assertNotEqual(edit.find, edit.replace)
 
     def test_mutations(self) -> None:
-        self.assertEqual(len({m.name for m in MUTATIONS}), len(MUTATIONS))
-        for m in MUTATIONS:
+        mutations = [*MUTATIONS, *IMPORTER_MUTATIONS]
+        self.assertEqual(len({m.name for m in mutations}), len(mutations))
+        for m in mutations:
             self.check(m.name, Edit(m.path, m.find, m.replace))
 
     def test_protections(self) -> None:
