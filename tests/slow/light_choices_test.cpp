@@ -12,7 +12,7 @@ constexpr int kFrames = 1024;
 class SlowLightChoices : public testing::TestWithParam<const char*> {};
 
 TEST_P(SlowLightChoices, AllAgree) {
-  const Comparison comparison(GetParam(), {.size = 64, .samples = 1024});
+  const Comparison comparison(GetParam(), {.size = 32, .samples = 1024});
   for (const LightChoice lights : {LightChoice::uniform, LightChoice::learned}) {
     for (const Sampler sampler : {Sampler::bsdf, Sampler::rl}) {
       for (const Nee nee : {Nee::one_ray, Nee::two_ray}) {

@@ -11,7 +11,7 @@ namespace {
 class SlowRooms : public testing::TestWithParam<const char*> {};
 
 TEST_P(SlowRooms, EveryMethodAgrees) {
-  const Comparison comparison(GetParam(), {.size = 64, .samples = 1024});
+  const Comparison comparison(GetParam(), {.size = 32, .samples = 1024});
   for (const Sampler sampler : {Sampler::bsdf, Sampler::uniform, Sampler::rl}) {
     for (const Nee nee : {Nee::none, Nee::one_ray, Nee::two_ray}) {
       for (const LightChoice lights : {LightChoice::uniform, LightChoice::power, LightChoice::learned}) {
