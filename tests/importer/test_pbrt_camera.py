@@ -84,7 +84,14 @@ class Transforms(unittest.TestCase):
                      "LookAt 0 0 0 0 0 0 0 1 0", "LookAt 0 0 0 0 1 0 0 1 0",
                      "Transform [1 0 0 1  0 1 0 0  0 0 1 0  0 0 0 1]",
                      "Scale 1e200 1e200 1e200\n" * 2):
-            self.assertRegex(problem('Camera "perspective"\nWorldBegin\n' + text), "must")
+            for use in (TRIANGLE, 'LightSource "point"', 'ObjectBegin "a"\nObjectEnd\nObjectInstance "a"'):
+                self.assertRegex(problem(f'Camera "perspective"\nWorldBegin\n{text}\n{use}'), "must")
+            self.assertRegex(problem(f'{text}\nCamera "perspective"\nWorldBegin\n{TRIANGLE}'), "must")
+
+    def test_what_flattens_and_is_not_used(self) -> None:
+        """As exporters write it about groups that hold nothing."""
+        scene, _ = world("AttributeBegin\nConcatTransform [0 0 0 0  0 1 0 0  0 0 -1 0  5 6 7 1]\nAttributeEnd\n" + TRIANGLE)
+        np.testing.assert_array_equal(scene.parts[0].to_world, np.eye(4))
 
 
 class Cameras(unittest.TestCase):

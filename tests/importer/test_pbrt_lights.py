@@ -195,6 +195,16 @@ class Skies(unittest.TestCase):
         scene, notes = world(f"Scale 1 1 2\n{text}", HEAD_V3, {"a.pfm": pfm(image)})
         self.assertIn("stretched", " ".join(said(notes)))
 
+    def test_a_projective_matrix_turns_a_sky_by_its_linear_part(self) -> None:
+        """A scene of the field writes a matrix row by row, which makes of its translation a fourth row. With x to y, y to z
+        and z to x, what comes from the world's +x is what the image has at the light's +z: its upper edge."""
+        image = np.zeros((64, 128, 3))
+        image[:4] = 1
+        scene, _ = world('ConcatTransform [0 1 0 0  0 0 1 0  1 0 0 8.87  0 0 0 1]\n'
+                         'LightSource "infinite" "string mapname" "a.pfm"', HEAD_V3, {"a.pfm": pfm(image)})
+        self.assertAlmostEqual(seen(scene.sky, (1, 0.01, 0.01))[0], 1)
+        self.assertAlmostEqual(seen(scene.sky, (0.01, 1, 0.01))[0], 0)
+
     def test_version_4_is_octahedral(self) -> None:
         """By the book's figure 3.22: the middle of the square is +z, its corners are -z, the middle of the right side +x
         and that of the lower side, where t is 1, +y."""

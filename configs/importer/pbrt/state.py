@@ -123,12 +123,13 @@ class States:
             self._activate(statement)
         else:
             if statement.directive == "Camera":
+                transforms.check_usable(self.now.to_world, statement.place)
                 self._coordinate_systems["camera"] = np.linalg.inv(self.now.to_world)
             return False
         return True
 
     def _set_matrix(self, matrix: np.ndarray, place: Place) -> None:
-        transforms.check_invertible(matrix, place)
+        transforms.check_finite(matrix, place)
         self.now = replace(self.now, to_world=matrix)
 
     def _recall(self, statement: Statement) -> None:

@@ -20,6 +20,7 @@ from importer.pbrt.spectra import Spectra
 from importer.pbrt.state import Definition, State
 from importer.pbrt.statements import Statement
 from importer.pbrt.textures import Textures
+from importer.pbrt.transforms import check_usable
 from importer.problems import ImportProblem, Notes
 from importer.scene import Colour, Material, Mesh, Part, Texture
 
@@ -62,10 +63,12 @@ class World:
             raise ImportProblem(f"{statement.place}: ObjectInstance within an object; objects must not hold others")
         if name not in self._objects:
             raise ImportProblem(f'{statement.place}: there is no object "{name}"; ObjectBegin must define it before')
+        check_usable(to_world, statement.place)
         for part in self._objects[name]:
             self._add(self.parts, Part(part.name, part.mesh, part.material, to_world @ part.to_world), statement.place)
 
     def add_shape(self, kind: str, parameters: Parameters, state: State) -> None:
+        check_usable(state.to_world, parameters.place)
         material, is_invisible = self._material(parameters, state)
         light = self._lamp_of(state, material, parameters)
         meshes = [] if is_invisible else self._shapes.read(kind, parameters, state.is_reversed)
