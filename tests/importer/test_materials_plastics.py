@@ -164,9 +164,14 @@ class MitsubasPlastic(unittest.TestCase):
         np.testing.assert_allclose(made.base_colour.image.pixels[0, 1], 0.0)
         self.assertIs(made.base_colour.image, again.base_colour.image)
 
-    def test_an_index_of_1_or_less_is_refused(self) -> None:
-        with self.assertRaisesRegex(ImportProblem, "^cup: the index of a dielectric surface is 1 of that above it; above 1"):
-            self.make(WHITE, ior=1.0)
+    def test_an_index_below_1_is_refused(self) -> None:
+        with self.assertRaisesRegex(ImportProblem, "^cup: the index of a dielectric surface is 0.9 of that above it; 1 or mo"):
+            self.make(WHITE, ior=0.9)
+
+    def test_without_a_step_of_the_index_there_is_no_lobe(self) -> None:
+        made = self.make((0.2, 0.4, 0.6), ior=1.0)
+        np.testing.assert_allclose(made.base_colour, (0.2, 0.4, 0.6), atol=1e-12)
+        self.assertEqual(made.specular, 0.0)
 
 
 class PbrtsCoatedDiffuse(unittest.TestCase):
