@@ -225,6 +225,13 @@ class AreaLightTest(MitsubaTest):
         self.assert_close(material.base_colour, (0, 0, 0))
         self.assert_noted("a lamp that light passes through")
 
+    def test_a_lamp_that_shapes_refer_to(self) -> None:
+        scene = self.read('<emitter type="area" id="lamp"><rgb name="radiance" value="1 2 3"/></emitter>'
+                          '<shape type="rectangle"><ref id="lamp"/></shape><shape type="sphere"/>')
+        self.assertEqual([part.material.radiance for part in scene.parts], [(1.0, 2.0, 3.0), (0.0, 0.0, 0.0)])
+        self.assertEqual(scene.lights, [])
+        self.assertIn("belongs into a <shape>", self.problem('<emitter type="area"/>'))
+
     def test_two_emitters(self) -> None:
         self.assertIn("has 2 <emitter>", self.problem(f'<shape type="rectangle">{self.LAMP}{self.LAMP}</shape>'))
 

@@ -30,7 +30,8 @@ def read_mitsuba(path: Path, notes: Notes, parameters: dict[str, str]) -> Scene:
     scene.source_version = tree.version
     scene.max_bounces = read_max_bounces(_integrator(root), notes)
     for emitter in root.all_of("emitter"):
-        read_light(emitter, scene, tree.folder, notes)
+        if emitter.type != "area" or not emitter.id:  # an area light with an id is there for shapes to refer to
+            read_light(emitter, scene, tree.folder, notes)
     parts = PartReader(ShapeReader(tree.folder, notes), MaterialReader(TextureReader(tree.folder, notes), notes), notes)
     for shape in root.all_of("shape"):
         parts.add(shape)
