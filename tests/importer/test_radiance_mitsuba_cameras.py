@@ -1,0 +1,125 @@
+"""Mitsuba's cameras in pictures: where on a large wall the ray of each pixel ends. The wall's colour is its place, so that
+mirrored worlds show as well."""
+
+from __future__ import annotations
+
+import sys
+import unittest
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Sequence
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import mitsuba_rays as rays
+from mitsuba_exhibits import as_old
+from rendering import RadianceTest, Source
+
+_TEXELS = 128
+_WALL: list[rays.Step] = [("scale", (14, 14, 1)), ("translate", (0, 0, -6))]
+_PLACE: rays.Step = ("lookat", (0.5, 1, 3, 1, 0.2, -6, 0.3, 1, 0.1))
+_PLAIN: list[rays.Step] = [_PLACE]
+
+
+def places() -> bytes:
+    """A .pfm whose red and green are u and v at the texels' middles, rows from the bottom."""
+    middles = (np.arange(_TEXELS) + 0.5) / _TEXELS
+    v, u = np.meshgrid(middles, middles, indexing="ij")
+    pixels = np.stack([u, v, np.full_like(u, 0.25)], axis=2).astype("<f4")
+    return f"PF\n{_TEXELS} {_TEXELS}\n-1.0\n".encode() + pixels[::-1].tobytes()
+
+
+@dataclass(frozen=True)
+class Camera:
+    parameters: str
+    half_width: float  # tangent of half the field of view along x, or half the width of an orthographic picture
+    size: tuple[int, int] = (16, 8)
+    steps: Sequence[rays.Step] = tuple(_PLAIN)
+    kind: str = "perspective"
+    film: str = ""
+    version: str = "3.0.0"
+
+    def scene(self) -> str:
+        film = (f'<film type="hdrfilm"><integer name="width" value="{self.size[0]}"/>'
+                f'<integer name="height" value="{self.size[1]}"/>{self.film}<rfilter type="box"/></film>')
+        wall = (f'<shape type="rectangle">{rays.steps_xml(_WALL)}<bsdf type="twosided"><bsdf type="diffuse"><texture '
+                'type="bitmap" name="reflectance"><string name="filename" value="places.pfm"/></texture></bsdf></bsdf></shape>')
+        text = (f'<scene version="{self.version}"><emitter type="constant"/><sensor type="{self.kind}">{self.parameters}'
+                f"{rays.steps_xml(self.steps)}{film}</sensor>{wall}</scene>")
+        return as_old(text) if self.version < "2" else text
+
+    def rays(self) -> rays.Rays:
+        matrix = rays.steps_matrix(self.steps)
+        if self.kind == "orthographic":
+            return rays.orthographic(matrix, *self.size)
+        return rays.perspective(matrix, 2 * np.degrees(np.arctan(self.half_width)), *self.size)
+
+    def expected(self) -> np.ndarray:
+        return rays.rectangle(self.rays().moved(np.linalg.inv(rays.steps_matrix(_WALL)))).uv
+
+
+def fov(degrees: float, axis: str = "") -> str:
+    return f'<float name="fov" value="{degrees}"/>' + (f'<string name="fov_axis" value="{axis}"/>' if axis else "")
+
+
+T25, T30 = np.tan(np.radians(25)), np.tan(np.radians(30))
+UPRIGHT, SQUARE = (8, 16), (12, 12)
+# Film of 36 mm x 24 mm: the diagonal is sqrt(36^2 + 24^2) mm, and with a width of 2 and a height of 1 the diagonal is sqrt(5).
+_DIAGONAL = np.hypot(36, 24) / 2
+CAMERAS = {
+    "x by default": Camera(fov(60), T30), "x": Camera(fov(60, "x"), T30), "x, upright": Camera(fov(50, "x"), T25, UPRIGHT),
+    "y": Camera(fov(50, "y"), 2 * T25), "y, upright": Camera(fov(60, "y"), T30 / 2, UPRIGHT),
+    "smaller": Camera(fov(50, "smaller"), 2 * T25), "smaller, upright": Camera(fov(50, "smaller"), T25, UPRIGHT),
+    "larger": Camera(fov(60, "larger"), T30), "larger, upright": Camera(fov(60, "larger"), T30 / 2, UPRIGHT),
+    "diagonal": Camera(fov(60, "diagonal"), T30 * 2 / np.sqrt(5)),
+    "focal length": Camera('<string name="focal_length" value="35mm"/>', _DIAGONAL / 35 * 2 / np.sqrt(5)),
+    "by default": Camera("", _DIAGONAL / 50 / np.sqrt(2), SQUARE),
+    "the older x": Camera(fov(60), T30, version="0.6.0"),
+    "the older smaller": Camera(fov(50, "smaller"), 2 * T25, version="0.5.0"),
+    "the older focal length": Camera('<string name="focal_length" value="35"/>', _DIAGONAL / 35 * 2 / np.sqrt(5),
+                                     version="0.6.0"),
+    "thinlens": Camera(fov(60) + '<float name="aperture_radius" value="0.1"/><float name="focus_distance" value="9"/>', T30,
+                       kind="thinlens"),
+    "rolled": Camera(fov(60), T30, steps=[("rotate", (0, 0, 1, 25)), _PLACE]),
+    "mirrored": Camera(fov(60), T30, steps=[("scale", (-1, 1, 1)), _PLACE]),
+    "mirrored world": Camera(fov(60), T30, steps=[_PLACE, ("scale", (1, -1, 1))]),
+    "scaled": Camera(fov(60), T30, steps=[("scale", (3, 3, 3)), _PLACE]),
+    "orthographic": Camera("", 1, kind="orthographic", steps=[("scale", (2, 2, 1)), _PLACE]),
+    "orthographic, upright": Camera("", 1, UPRIGHT, kind="orthographic", steps=[("scale", (1.5, 1.5, 1)), _PLACE]),
+    "mirrored orthographic": Camera("", 1, kind="orthographic", steps=[("scale", (-2, 2, 1)), _PLACE], version="0.6.0"),
+}
+_CROP = "".join(f'<integer name="crop_{name}" value="{value}"/>'
+                for name, value in (("offset_x", 4), ("offset_y", 3), ("width", 8), ("height", 2)))
+CROPPED = Camera(fov(60), T30, film=_CROP)
+CROPPED_FLAT = Camera("", 1, kind="orthographic", steps=[("scale", (2, 2, 1)), _PLACE], film=_CROP)
+
+
+class CamerasTest(RadianceTest):
+    @classmethod
+    def sources(cls) -> dict[str, Source]:
+        cameras = {**CAMERAS, "cropped": CROPPED, "cropped orthographic": CROPPED_FLAT}
+        return {name.replace(",", ""): Source(camera.scene(), {"places.pfm": places()}) for name, camera in cameras.items()}
+
+    def seen(self, name: str) -> np.ndarray:
+        return self.pictures[name.replace(",", "")].albedo[..., :2]
+
+    def test_the_ray_of_each_pixel(self) -> None:
+        """To 0.0007 of the wall: texels are kept as half floats, whose steps are 0.0005 there."""
+        for name, camera in CAMERAS.items():
+            with self.subTest(name):
+                expected = camera.expected()
+                self.assertGreater(np.ptp(expected[..., 0]), 0.04)
+                self.assertTrue(((expected > 0.01) & (expected < 0.99)).all(), "the wall is too small")
+                self.assertEqual(self.seen(name).shape, expected.shape)
+                self.assert_near(self.seen(name), expected, 7e-4)
+
+    def test_a_crop_about_the_middle(self) -> None:
+        for name, camera in (("cropped", CROPPED), ("cropped orthographic", CROPPED_FLAT)):
+            with self.subTest(name):
+                self.assert_near(self.seen(name), camera.expected()[3:5, 4:12], 7e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
