@@ -36,9 +36,9 @@ class Roughness(unittest.TestCase):
         self.assertEqual(roughness.pbrt_alpha(0.0625, True, 4), 0.25)
         self.assertEqual(roughness.pbrt_alpha(0.0625, False, 4), 0.0625)
         self.assertAlmostEqual(roughness.pbrt_alpha(0.1, True, 3), 0.461761, delta=1e-5)
-        self.assertEqual(roughness.pbrt_alpha(0.0, True, 3), 0.0)
         # With x = ln 0.001 = -6.907755: 1.62142 - 5.664048 + 8.274142 - 5.643087 + 1.458847.
-        self.assertAlmostEqual(roughness.pbrt_alpha(1e-9, True, 3), 0.04727, delta=2e-5)
+        for least in (0.0, 1e-9, 1e-3):
+            self.assertAlmostEqual(roughness.pbrt_alpha(least, True, 3), 0.04727, delta=2e-5)
         self.assertEqual(roughness.pbrt_alpha(0.25, False, 3), 0.25)
 
     def test_more_than_all_is_noted(self) -> None:

@@ -140,6 +140,16 @@ class Version3(unittest.TestCase):
         made = self.made('Material "metal" "float roughness" 0.25 "bool remaproughness" "false"')
         self.assertAlmostEqual(float(made.roughness), 0.5)
 
+    def test_no_roughness_is_smooth_in_glass_alone(self) -> None:
+        """And there only where both are 0 (GlassMaterial); elsewhere the polynomial makes an alpha of 0.04727 of it."""
+        least = math.sqrt(0.04727)
+        for kind, said in (("metal", '"float roughness" 0'), ("plastic", '"float roughness" 0'),
+                           ("uber", '"float roughness" 0'), ("substrate", '"float uroughness" 0 "float vroughness" 0')):
+            self.assertAlmostEqual(float(self.made(f'Material "{kind}" {said}').roughness), least, 3, kind)
+        self.assertEqual(self.made('Material "glass"').roughness, 0.0)
+        made = self.made('Material "glass" "float uroughness" 0 "float vroughness" .1')
+        self.assertAlmostEqual(float(made.roughness), (0.04727 * 0.461749) ** 0.25, 3)
+
     def test_matte_mirror_glass(self) -> None:
         np.testing.assert_allclose(self.made('Material "matte" "rgb Kd" [.1 .2 .3]').base_colour, (.1, .2, .3))
         np.testing.assert_allclose(self.made("").base_colour, (.5, .5, .5))
