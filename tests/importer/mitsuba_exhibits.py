@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import struct
 import zlib
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Callable, Sequence
 import numpy as np
 
 import mitsuba_rays
+import mitsuba_xml as xml
 from mitsuba_rays import Hits, Rays, Step, steps_matrix, steps_xml
 
 SIDE, SIZE, FOV, DISTANCE = 4, 96, 40.0, 9.0  # exhibits in a row, pixels, degrees
@@ -22,10 +22,10 @@ _CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A shape about the origin, no larger than 0.7, and Mitsuba's hits with a unit shape that `own` and then `steps` move."""
+    """A shape about the origin, no larger than 0.7, and hits of a unit shape that `own` and then `steps` move."""
 
     name: str
-    xml: str  # with {transform} and {inside}
+    text: str  # with {transform} and {inside}
     steps: Sequence[Step]
     hits: Callable[[Rays], Hits]
     colour: Colour
@@ -39,7 +39,7 @@ class Exhibit:
         return *self.steps, ("translate", ((column - middle) * _SPACING, (middle - row) * _SPACING, 0.0))
 
     def to_xml(self, index: int) -> str:
-        return self.xml.format(transform=steps_xml(self.place(index)), inside=self.inside)
+        return self.text.format(transform=steps_xml(self.place(index)), inside=self.inside)
 
     def matrix(self, index: int) -> np.ndarray:
         matrix = steps_matrix(self.place(index))
@@ -55,17 +55,9 @@ def camera(from_behind: bool = False) -> Step:
 
 
 def scene(exhibits: Sequence[Exhibit], version: str, from_behind: bool = False, also: str = "") -> str:
-    film = (f'<film type="hdrfilm"><integer name="width" value="{SIZE}"/><integer name="height" value="{SIZE}"/>'
-            '<rfilter type="box"/></film>')
-    sensor = f'<sensor type="perspective"><float name="fov" value="{FOV}"/>{steps_xml([camera(from_behind)])}{film}</sensor>'
     shapes = "".join(exhibit.to_xml(index) for index, exhibit in enumerate(exhibits))
-    text = f'<scene version="{version}"><emitter type="constant"/>{sensor}{also}{shapes}</scene>'
-    return as_old(text) if version < "2" else text
-
-
-def as_old(text: str) -> str:
-    """With the names of 0.6: toWorld for to_world."""
-    return re.sub(r'name="[a-z_]+"', lambda found: re.sub(r"_([a-z])", lambda part: part[1].upper(), found[0]), text)
+    sensor = xml.sensor("perspective", [camera(from_behind)], SIZE, SIZE, xml.number("fov", FOV))
+    return xml.scene(version, f'<emitter type="constant"/>{sensor}{also}{shapes}')
 
 
 @dataclass(frozen=True)

@@ -75,7 +75,8 @@ def average(curve: Curve) -> float:
 
 
 def plastic(c: float, rho: float, eta: float, is_nonlinear: bool = False) -> float:
-    """F + T(v) <T> rho / (eta^2 (1 - <F inside>)), with rho <F inside> in its place where it is nonlinear (SmoothPlastic)."""
+    """F + T(v) <T> rho / (eta^2 (1 - <F inside>)), with rho <F inside> in its place where it is nonlinear
+    (SmoothPlastic)."""
     inside = 1 - (1 - average(lambda x: fresnel(x, eta))) / eta**2  # fresnel_diffuse_reflectance of 1 / eta
     passed = 1 - average(lambda x: fresnel(x, eta))
     return float(fresnel(c, eta) + (1 - fresnel(c, eta)) * passed * rho

@@ -136,8 +136,8 @@ class RadianceTest(unittest.TestCase):
         self.assertTrue(np.isfinite(actual).all(), what)
         if excess.size and excess.max() > 0:
             at = np.unravel_index(excess.argmax(), excess.shape)
-            self.fail(f"{what} at {tuple(map(int, at))}: {actual[at]:.5g}, expected {expected[at]:.5g} +- {allowed[at]:.2g}; "
-                      f"{int((excess > 0).sum())} of {excess.size} are off")
+            self.fail(f"{what} at {tuple(map(int, at))}: {actual[at]:.5g}, expected {expected[at]:.5g} +- "
+                      f"{allowed[at]:.2g}; {int((excess > 0).sum())} of {excess.size} are off")
 
     def assert_radiance(self, picture: Picture, expected: object, allowed: object = 1e-3, what: str = "") -> None:
         """Each pixel within six standard errors and the allowance, and the mean of all within four and that."""

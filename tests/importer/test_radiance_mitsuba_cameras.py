@@ -14,7 +14,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import mitsuba_rays as rays
-from mitsuba_exhibits import as_old
+import mitsuba_xml as xml
 from rendering import RadianceTest, Source
 
 _TEXELS = 128
@@ -38,17 +38,14 @@ class Camera:
     size: tuple[int, int] = (16, 8)
     steps: Sequence[rays.Step] = tuple(_PLAIN)
     kind: str = "perspective"
-    film: str = ""
+    crop: str = ""
     version: str = "3.0.0"
 
     def scene(self) -> str:
-        film = (f'<film type="hdrfilm"><integer name="width" value="{self.size[0]}"/>'
-                f'<integer name="height" value="{self.size[1]}"/>{self.film}<rfilter type="box"/></film>')
-        wall = (f'<shape type="rectangle">{rays.steps_xml(_WALL)}<bsdf type="twosided"><bsdf type="diffuse"><texture '
-                'type="bitmap" name="reflectance"><string name="filename" value="places.pfm"/></texture></bsdf></bsdf></shape>')
-        text = (f'<scene version="{self.version}"><emitter type="constant"/><sensor type="{self.kind}">{self.parameters}'
-                f"{rays.steps_xml(self.steps)}{film}</sensor>{wall}</scene>")
-        return as_old(text) if self.version < "2" else text
+        texture = f'<texture type="bitmap" name="reflectance">{xml.word("filename", "places.pfm")}</texture>'
+        wall = f'<shape type="rectangle">{rays.steps_xml(_WALL)}{xml.matt(texture)}</shape>'
+        sensor = xml.sensor(self.kind, self.steps, *self.size, self.parameters, self.crop)
+        return xml.scene(self.version, f'<emitter type="constant"/>{sensor}{wall}')
 
     def rays(self) -> rays.Rays:
         matrix = rays.steps_matrix(self.steps)
@@ -61,12 +58,12 @@ class Camera:
 
 
 def fov(degrees: float, axis: str = "") -> str:
-    return f'<float name="fov" value="{degrees}"/>' + (f'<string name="fov_axis" value="{axis}"/>' if axis else "")
+    return xml.number("fov", degrees) + (xml.word("fov_axis", axis) if axis else "")
 
 
 T25, T30 = np.tan(np.radians(25)), np.tan(np.radians(30))
 UPRIGHT, SQUARE = (8, 16), (12, 12)
-# Film of 36 mm x 24 mm: the diagonal is sqrt(36^2 + 24^2) mm, and with a width of 2 and a height of 1 the diagonal is sqrt(5).
+# Half of the diagonal of a film of 36 mm x 24 mm; that of a picture whose width is 2 and height is 1 is sqrt(5).
 _DIAGONAL = np.hypot(36, 24) / 2
 CAMERAS = {
     "x by default": Camera(fov(60), T30), "x": Camera(fov(60, "x"), T30), "x, upright": Camera(fov(50, "x"), T25, UPRIGHT),
@@ -74,14 +71,13 @@ CAMERAS = {
     "smaller": Camera(fov(50, "smaller"), 2 * T25), "smaller, upright": Camera(fov(50, "smaller"), T25, UPRIGHT),
     "larger": Camera(fov(60, "larger"), T30), "larger, upright": Camera(fov(60, "larger"), T30 / 2, UPRIGHT),
     "diagonal": Camera(fov(60, "diagonal"), T30 * 2 / np.sqrt(5)),
-    "focal length": Camera('<string name="focal_length" value="35mm"/>', _DIAGONAL / 35 * 2 / np.sqrt(5)),
+    "focal length": Camera(xml.word("focal_length", "35mm"), _DIAGONAL / 35 * 2 / np.sqrt(5)),
     "by default": Camera("", _DIAGONAL / 50 / np.sqrt(2), SQUARE),
     "the older x": Camera(fov(60), T30, version="0.6.0"),
     "the older smaller": Camera(fov(50, "smaller"), 2 * T25, version="0.5.0"),
-    "the older focal length": Camera('<string name="focal_length" value="35"/>', _DIAGONAL / 35 * 2 / np.sqrt(5),
+    "the older focal length": Camera(xml.word("focal_length", "35"), _DIAGONAL / 35 * 2 / np.sqrt(5),
                                      version="0.6.0"),
-    "thinlens": Camera(fov(60) + '<float name="aperture_radius" value="0.1"/><float name="focus_distance" value="9"/>', T30,
-                       kind="thinlens"),
+    "thinlens": Camera(fov(60) + xml.number("aperture_radius", 0.1) + xml.number("focus_distance", 9), T30, kind="thinlens"),
     "rolled": Camera(fov(60), T30, steps=[("rotate", (0, 0, 1, 25)), _PLACE]),
     "mirrored": Camera(fov(60), T30, steps=[("scale", (-1, 1, 1)), _PLACE]),
     "mirrored world": Camera(fov(60), T30, steps=[_PLACE, ("scale", (1, -1, 1))]),
@@ -90,10 +86,10 @@ CAMERAS = {
     "orthographic, upright": Camera("", 1, UPRIGHT, kind="orthographic", steps=[("scale", (1.5, 1.5, 1)), _PLACE]),
     "mirrored orthographic": Camera("", 1, kind="orthographic", steps=[("scale", (-2, 2, 1)), _PLACE], version="0.6.0"),
 }
-_CROP = "".join(f'<integer name="crop_{name}" value="{value}"/>'
+_CROP = "".join(xml.whole(f"crop_{name}", value)
                 for name, value in (("offset_x", 4), ("offset_y", 3), ("width", 8), ("height", 2)))
-CROPPED = Camera(fov(60), T30, film=_CROP)
-CROPPED_FLAT = Camera("", 1, kind="orthographic", steps=[("scale", (2, 2, 1)), _PLACE], film=_CROP)
+CROPPED = Camera(fov(60), T30, crop=_CROP)
+CROPPED_FLAT = Camera("", 1, kind="orthographic", steps=[("scale", (2, 2, 1)), _PLACE], crop=_CROP)
 
 
 class CamerasTest(RadianceTest):

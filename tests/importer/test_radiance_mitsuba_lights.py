@@ -1,4 +1,4 @@
-"""Mitsuba's emitters in pictures: what a matt floor shows of them, what is seen of the sky, and how long paths are."""
+"""Mitsuba's emitters in pictures: what a matt floor shows of them."""
 
 from __future__ import annotations
 
@@ -13,28 +13,20 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import mitsuba_light as light
 import mitsuba_rays as rays
-from mitsuba_exhibits import as_old
-from mitsuba_scenes import png
+import mitsuba_xml as xml
 from rendering import RadianceTest, Source
 
 WIDTH, HEIGHT, FOV = 12, 8, 20.0
 EYE: rays.Step = ("lookat", (0, -6, 5, 0, 0, 0, 0, 0, 1))
 REFLECTANCE = np.array((0.8, 0.5, 0.2))
-INTEGRATOR = '<integrator type="path"><integer name="max_depth" value="{}"/></integrator>'
 DOWN: rays.Step = ("rotate", (1, 0, 0, 180))
 
 
-def sensor(step: rays.Step = EYE, fov: float = FOV, width: int = WIDTH, height: int = HEIGHT) -> str:
-    return (f'<sensor type="perspective"><float name="fov" value="{fov}"/>{rays.steps_xml([step])}<film type="hdrfilm"><integer '
-            f'name="width" value="{width}"/><integer name="height" value="{height}"/><rfilter type="box"/></film></sensor>')
-
-
-def floor_scene(lights: str, version: str = "3.0.0", depth: int = 2) -> str:
-    rgb = ", ".join(map(str, REFLECTANCE))
-    floor = (f'<shape type="rectangle">{rays.steps_xml([("scale", (8, 8, 1))])}<bsdf type="diffuse"><rgb name="reflectance" '
-             f'value="{rgb}"/></bsdf></shape>')
-    text = f'<scene version="{version}">{INTEGRATOR.format(depth)}{sensor()}{floor}{lights}</scene>'
-    return as_old(text) if version < "2" else text
+def floor_scene(lights: str, version: str = "3.0.0") -> str:
+    floor = (f'<shape type="rectangle">{rays.steps_xml([("scale", (8, 8, 1))])}<bsdf type="diffuse">'
+             f'{xml.rgb("reflectance", REFLECTANCE)}</bsdf></shape>')
+    sensor = xml.sensor("perspective", [EYE], WIDTH, HEIGHT, xml.number("fov", FOV))
+    return xml.scene(version, xml.path(2) + sensor + floor + lights)
 
 
 def floor_points() -> np.ndarray:
@@ -43,42 +35,43 @@ def floor_points() -> np.ndarray:
     return seen.origins - seen.origins[..., 2:] / seen.directions[..., 2:] * seen.directions
 
 
-def lamp(kind: str, steps: list[rays.Step], radiance: str, inside: str = "") -> str:
-    return (f'<shape type="{kind}">{inside}{rays.steps_xml(steps)}<emitter type="area">'
-            f'<rgb name="radiance" value="{radiance}"/></emitter></shape>')
+def lamp(kind: str, steps: list[rays.Step], radiance: object, inside: str = "") -> str:
+    return (f'<shape type="{kind}">{inside}{rays.steps_xml(steps)}<emitter type="area">{xml.rgb("radiance", radiance)}'
+            "</emitter></shape>")
+
+
+def emitter(kind: str, inside: str) -> str:
+    return f'<emitter type="{kind}">{inside}</emitter>'
 
 
 POINT, SPOT, TARGET = (1.0, 0.5, 2.0), (-1.5, -0.5, 3.0), (-0.2, 0.1, 0.0)
 CUTOFF, BEAM = 18.0, 15.0
 SUN = np.array((0.5, 0.3, -1.0)) / np.linalg.norm((0.5, 0.3, -1.0))
-PUNCTUAL = ('<emitter type="point"><point name="position" x="1" y="0.5" z="2"/><rgb name="intensity" value="7, 0, 0"/></emitter>'
-            f'<emitter type="spot">{rays.steps_xml([("lookat", (*SPOT, *TARGET, 0, 1, 0))])}<float name="cutoff_angle" '
-            f'value="{CUTOFF}"/><float name="beam_width" value="{BEAM}"/><rgb name="intensity" value="0, 9, 0"/></emitter>'
-            '<emitter type="directional"><vector name="direction" x="0.5" y="0.3" z="-1"/>'
-            '<rgb name="irradiance" value="0, 0, 2"/></emitter>')
+CONES = (rays.steps_xml([("lookat", (*SPOT, *TARGET, 0, 1, 0))]) + xml.number("cutoff_angle", CUTOFF)
+         + xml.number("beam_width", BEAM))
+PUNCTUAL = (emitter("point", '<point name="position" x="1" y="0.5" z="2"/>' + xml.rgb("intensity", (7, 0, 0)))
+            + emitter("spot", CONES + xml.rgb("intensity", (0, 9, 0)))
+            + emitter("directional", '<vector name="direction" x="0.5" y="0.3" z="-1"/>' + xml.rgb("irradiance", (0, 0, 2))))
 # The same by transforms, which 0.6 has alone: lights shine along their +z.
-PUNCTUAL_OLD = (f'<emitter type="point">{rays.steps_xml([("translate", POINT)])}<spectrum name="intensity" value="7"/></emitter>',
-                f'<emitter type="spot">{rays.steps_xml([("lookat", (*SPOT, *TARGET, 0, 1, 0))])}<float name="cutoff_angle" '
-                f'value="{CUTOFF}"/><float name="beam_width" value="{BEAM}"/><spectrum name="intensity" value="9"/></emitter>',
-                f'<emitter type="directional">{rays.steps_xml([("lookat", (0, 0, 0, *SUN, 0, 1, 0))])}'
-                '<spectrum name="irradiance" value="2"/></emitter>')
+PUNCTUAL_OLD = (emitter("point", rays.steps_xml([("translate", POINT)]) + '<spectrum name="intensity" value="7"/>'),
+                emitter("spot", CONES + '<spectrum name="intensity" value="9"/>'),
+                emitter("directional", rays.steps_xml([("lookat", (0, 0, 0, *SUN, 0, 1, 0))])
+                        + '<spectrum name="irradiance" value="2"/>'))
 SQUARE: list[rays.Step] = [("scale", (0.6, 0.4, 1)), DOWN, ("translate", (-2.5, 0, 2.5))]
 SMALL_DISK: list[rays.Step] = [("scale", (0.5, 0.5, 0.5)), DOWN, ("translate", (2.5, 0, 2.5))]
 BOX: list[rays.Step] = [("scale", (0.3, 0.4, 0.2)), ("translate", (0, 1, 2.5))]
-LAMPS = (lamp("rectangle", SQUARE, "20, 0, 0") + lamp("disk", SMALL_DISK, "0, 0, 30")
-         + lamp("sphere", [("translate", (0, 1, 2.5))], "0, 25, 0", '<float name="radius" value="0.5"/>'))
+LAMPS = (lamp("rectangle", SQUARE, (20, 0, 0)) + lamp("disk", SMALL_DISK, (0, 0, 30))
+         + lamp("sphere", [("translate", (0, 1, 2.5))], (0, 25, 0), xml.number("radius", 0.5)))
 TUBE = '<point name="p0" x="0" y="-0.5" z="0"/><point name="p1" x="0" y="0.6" z="0.2"/><float name="radius" value="0.2"/>'
-PICTURE = ('<shape type="rectangle">{}<emitter type="area"><texture name="radiance" type="bitmap"><string name="filename" '
-           'value="glow.pfm"/><string name="filter_type" value="nearest"/></texture></emitter></shape>')
-OTHER_LAMPS = (lamp("cylinder", [("translate", (-2.5, 0, 2.5))], "30, 0, 0", TUBE) + lamp("cube", BOX, "0, 20, 0")
-               + PICTURE.format(rays.steps_xml(SMALL_DISK)))
-FLIPPED = '<boolean name="flip_normals" value="true"/>'
-AWAY: list[rays.Step] = [("scale", (0.5, 0.5, 0.5)), ("translate", (2.5, 0, 2.5))]
-MASKED = '<bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf>'
+GLOW = ('<texture name="radiance" type="bitmap">' + xml.word("filename", "glow.pfm") + xml.word("filter_type", "nearest")
+        + "</texture>")
+OTHER_LAMPS = (lamp("cylinder", [("translate", (-2.5, 0, 2.5))], (30, 0, 0), TUBE) + lamp("cube", BOX, (0, 20, 0))
+               + f'<shape type="rectangle">{rays.steps_xml(SMALL_DISK)}{emitter("area", GLOW)}</shape>')
+MASKED = f'<bsdf type="mask">{xml.number("opacity", 0.25)}{xml.matt(xml.rgb("reflectance", 0))}</bsdf>'
 # Of three lamps, the first shines upwards, the second does so but for its flipped normals, the third is masked.
-SIDES = (lamp("rectangle", [("scale", (0.6, 0.4, 1)), ("translate", (-2.5, 0, 2.5))], "20, 0, 0")
-         + lamp("rectangle", [("scale", (0.4, 0.4, 0.4)), ("translate", (0, 1, 2.5))], "0, 20, 0", FLIPPED)
-         + lamp("rectangle", SMALL_DISK, "0, 0, 30", MASKED))
+SIDES = (lamp("rectangle", [("scale", (0.6, 0.4, 1)), ("translate", (-2.5, 0, 2.5))], (20, 0, 0))
+         + lamp("rectangle", [("scale", (0.4, 0.4, 0.4)), ("translate", (0, 1, 2.5))], (0, 20, 0), xml.yes("flip_normals"))
+         + lamp("rectangle", SMALL_DISK, (0, 0, 30), MASKED))
 
 
 def glow() -> bytes:
@@ -165,90 +158,6 @@ class FloorTest(RadianceTest):
                    for x0, y0, s in ((0, 1, 0.4), (2.5, 0, 0.5))]
         self.compare("sides", self.expected(lambda p: np.zeros(p.shape[:-1]), lambda p: light.polygon(p, squares[0], 20),
                                             lambda p: light.polygon(p, squares[1], 30)), 2e-3)
-
-
-ROOM = ('<shape type="{}">{}' + FLIPPED + '<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, '
-        '0.75"/></bsdf></bsdf><emitter type="area"><rgb name="radiance" value="1, 2, 3"/></emitter></shape>')
-
-
-def room(kind: str, integrator: str, version: str = "3.0.0") -> str:
-    body = f'<scene version="{version}">{integrator}{sensor(("lookat", (0, 0, 0, 1, 1, 0.5, 0, 0, 1)), 60)}'
-    body += ROOM.format(kind, rays.steps_xml([("scale", (2, 2, 2))])) + "</scene>"
-    return as_old(body) if version < "2" else body
-
-
-class LengthOfPathsTest(RadianceTest):
-    """Within a room whose walls emit L and reflect a share a, all that is seen is L (1 + a + a^2 ...), with as many terms as
-    max_depth says: 1 is what is seen directly."""
-
-    KEYS = {"frames": 64}
-
-    @classmethod
-    def sources(cls) -> dict[str, Source]:
-        depths = {f"depth {depth}": Source(room("cube", INTEGRATOR.format(depth))) for depth in (1, 2, 3)}
-        return {**depths, "direct": Source(room("cube", '<integrator type="direct"/>')),
-                "without end": Source(room("cube", INTEGRATOR.format(-1))),
-                "old": Source(room("cube", '<integrator type="volpath"><integer name="max_depth" value="4"/></integrator>',
-                                   "0.5.0"))}
-
-    def expected(self, terms: float) -> np.ndarray:
-        share = np.array((0.5, 0.25, 0.75))
-        return np.array((1, 2, 3)) * (1 - share**terms) / (1 - share)
-
-    def test_each_length(self) -> None:
-        for name, terms in (("depth 1", 1), ("depth 2", 2), ("depth 3", 3), ("direct", 2), ("old", 4), ("without end", np.inf)):
-            with self.subTest(name):
-                self.assert_radiance(self.pictures[name], self.expected(terms), 2e-3, name)
-
-
-_TURN: list[rays.Step] = [("rotate", (0.3, 1, -0.2, 70))]
-_MIRROR: list[rays.Step] = [("scale", (-1, 1, 1)), *_TURN]
-SKY_WIDTH = 24
-VIEWS = {"ahead": (1, 0.2, 0.3), "back": (-0.3, 0.4, -1), "up": (0.1, 1, 0.2)}
-
-
-def under_the_sky(steps: list[rays.Step], view: tuple[float, ...], version: str = "3.0.0") -> str:
-    """A dot far behind the camera stands for the shape that a scene must have."""
-    behind = tuple(-100 * x for x in view)
-    dot = f'<shape type="sphere">{rays.steps_xml([("scale", (0.1, 0.1, 0.1)), ("translate", behind)])}</shape>'
-    emitter = (f'<emitter type="envmap"><string name="filename" value="sky.pfm"/><float name="scale" value="2"/>'
-               f"{rays.steps_xml(steps)}</emitter>")
-    at = sensor(("lookat", (0, 0, 0, *view, 0.1, 0.2, 1)), 80, SKY_WIDTH, SKY_WIDTH)
-    text = f'<scene version="{version}">{INTEGRATOR.format(2)}{at}{emitter}{dot}</scene>'
-    return as_old(text) if version < "2" else text
-
-
-class SkyTest(RadianceTest):
-    KEYS = {"frames": 32}
-    TURNS = {"straight": [], "turned": _TURN, "mirrored": _MIRROR}
-
-    @classmethod
-    def sources(cls) -> dict[str, Source]:
-        files = {"sky.pfm": light.sky()}
-        found = {f"{turn} {name} {version[0]}": Source(under_the_sky(steps, view, version), files)
-                 for turn, steps in cls.TURNS.items() for name, view in VIEWS.items() for version in ("3.0.0", "0.6.0")
-                 if turn == "turned" or version == "3.0.0"}
-        constant = floor_scene('<emitter type="constant"><rgb name="radiance" value="0.5, 1, 2"/></emitter>')
-        grey = floor_scene('<emitter type="constant"><spectrum name="radiance" value="1.5"/></emitter>', "0.6.0")
-        return {**found, "constant": Source(constant), "grey": Source(grey)}
-
-    def test_each_direction(self) -> None:
-        """Twice 1 + 0.8 times the direction in the map's space; to 1 %, as rows of Mitsuba 3 lie up to half a row nearer to
-        the poles, and texels are straight lines between directions."""
-        for turn, steps in self.TURNS.items():
-            for name, view in VIEWS.items():
-                for version in ("3", "0") if turn == "turned" else ("3",):
-                    at = rays.steps_matrix([("lookat", (0, 0, 0, *view, 0.1, 0.2, 1))])
-                    seen = rays.perspective(at, 80, SKY_WIDTH, SKY_WIDTH, 4)
-                    local = seen.directions @ np.linalg.inv(rays.steps_matrix(steps))[:3, :3].T
-                    with self.subTest(turn, view=name, version=version):
-                        picture = self.pictures[f"{turn} {name} {version}"]
-                        self.assert_radiance(picture, 2 * (1 + 0.8 * local.mean(axis=2)), 0.02, "the sky")
-
-    def test_a_constant_sky_over_a_floor(self) -> None:
-        """Irradiance pi L."""
-        self.assert_radiance(self.pictures["constant"], REFLECTANCE * (0.5, 1, 2), 2e-3)
-        self.assert_radiance(self.pictures["grey"], REFLECTANCE * 1.5, 2e-3)
 
 
 if __name__ == "__main__":

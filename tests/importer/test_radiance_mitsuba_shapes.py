@@ -122,8 +122,8 @@ TEXTURES_3 = [
     Exhibit("obj as it is", shape("obj", '<string name="filename" value="square.obj"/>'
                                          '<boolean name="flip_tex_coords" value="false"/>'), TURN, rays.rectangle, repeated,
             PLAIN),
-    Exhibit("instance", '<shape type="instance">{transform}<ref id="group"/>{inside}</shape>', TURN, rays.rectangle, repeated,
-            "", rays.steps_matrix([("scale", (1, 0.5, 1)), ("rotate", (0, 0, 1, 70))]))]
+    Exhibit("instance", '<shape type="instance">{transform}<ref id="group"/>{inside}</shape>', TURN, rays.rectangle,
+            repeated, "", rays.steps_matrix([("scale", (1, 0.5, 1)), ("rotate", (0, 0, 1, 70))]))]
 OLD_UV = '<float name="uscale" value="2"/><float name="vscale" value="3"/><float name="uoffset" value="0.2"/>'
 TEXTURES_OLD = [
     Exhibit("uscale", shape("rectangle"), TURN, rays.rectangle,
@@ -169,8 +169,8 @@ class WhatIsSeenTest(RadianceTest):
 
 def lamps(is_old: bool) -> list[Exhibit]:
     """Light leaves on the side of the shading normal (AreaLight::eval). Of a mirrored ball that is inside in 3
-    (Sphere::update), and outside in 0.6; of a mirrored cylinder inside, since it is the cross product of its tangents. A mesh
-    without normals has those of the order of its corners in the world."""
+    (Sphere::update), and outside in 0.6; of a mirrored cylinder inside, since it is the cross product of its tangents. A
+    mesh without normals has those of the order of its corners in the world."""
     def lamp(name: str, kind: str, steps: list[rays.Step], hits: object, sign: int = 1, inside: str = "",
              own: np.ndarray | None = None, extra: str = "") -> Exhibit:
         colour = np.array((1 + len(found) / 4, 1.0, 0.5))
