@@ -60,36 +60,38 @@ def rough_schlick(alpha: float) -> Callable[[float], np.ndarray]:
     return lambda c: each(lambda f0: model.rough(c, alpha, lambda v: f0 + (1 - f0) * (1 - v) ** 5))(RHO)
 
 
-# Schlick's curve is off by 0.02 at 45 degrees and by 0.05 at 70 of these metals, and masking of glTF's microfacets is
-# height-correlated, which is brighter. The dielectric over a diffuse surface has the right sum over all views alone.
+# What is allowed is what the formulas of both models, put side by side, leave between them, and 0.006 at most besides:
+# Schlick's curve, masking that is height-correlated, GGX's wider skirt, and a diffuse lobe below a surface that is right in the
+# sum of all views alone. Silver and copper are those of table 9.2 of Real-Time Rendering (2018), of other measurements.
 EXHIBITS = {
     "diffuse": Exhibit(MATT, lambda c: RHO),
     "principled metal": Exhibit(twosided("principled", rgb("base_color", RHO) + number("metallic", 1)
-                                         + number("roughness", 0.5)), rough_schlick(0.25), (0.01, 0.02, 0.06)),
-    "conductor": Exhibit(twosided("conductor", METAL), metal, (2e-3, 0.02, 0.06)),
+                                         + number("roughness", 0.5)), rough_schlick(0.25), (0.002, 0.003, 0.006)),
+    "conductor": Exhibit(twosided("conductor", METAL), metal, (0.002, 0.008, 0.03)),
     "mirror": Exhibit(twosided("conductor", rgb("specular_reflectance", 0.6)), lambda c: 0.6),
     "silver": Exhibit(twosided("conductor", '<string name="material" value="Ag"/>'), lambda c: (0.972, 0.96, 0.915),
-                      (0.012, 0.02, 0.04)),
+                      (0.012, 0.012, 0.012)),
     "copper": Exhibit(twosided("conductor", '<string name="material" value="Cu"/>'), lambda c: (0.955, 0.638, 0.538),
-                      (0.05, 0.07, 0.12)),
+                      (0.035, 0.035, 0.04)),
     "rough metal": Exhibit(twosided("roughconductor", METAL + GGX + number("alpha", 0.3)), rough_metal(0.3, False),
-                           (0.015, 0.03, 0.1)),
+                           (0.004, 0.006, 0.022)),
     "Beckmann's metal": Exhibit(twosided("roughconductor", METAL + BECKMANN + number("alpha", 0.2)), rough_metal(0.2, True),
-                                (0.015, 0.03, 0.1)),
+                                (0.055, 0.075, 0.06)),
     "plastic": Exhibit(twosided("plastic", rgb("diffuse_reflectance", RHO) + number("int_ior", 1.5)),
-                       lambda c: each(lambda rho: model.plastic(c, rho, 1.5 / 1.000277))(RHO), (0.03, 0.03, 0.06)),
+                       lambda c: each(lambda rho: model.plastic(c, rho, 1.5 / 1.000277))(RHO), (0.035, 0.038, 0.038)),
     "nonlinear plastic": Exhibit(twosided("plastic", rgb("diffuse_reflectance", RHO) + number("int_ior", 1.5)
                                           + '<boolean name="nonlinear" value="true"/>'),
                                  lambda c: each(lambda rho: model.plastic(c, rho, 1.5 / 1.000277, True))(RHO),
-                                 (0.03, 0.03, 0.06)),
+                                 (0.025, 0.03, 0.02)),
     "rough plastic": Exhibit(twosided("roughplastic", rgb("diffuse_reflectance", RHO) + number("int_ior", 1.5) + GGX
                                       + number("alpha", 0.2)),
                              lambda c: each(lambda rho: model.rough_plastic(c, rho, 1.5 / 1.000277, 0.2))(RHO),
-                             (0.03, 0.03, 0.06)),
+                             (0.022, 0.02, 0.032)),
     "thin glass": Exhibit('<bsdf type="thindielectric">' + rgb("specular_transmittance", TINT) + number("int_ior", 1.5)
-                          + "</bsdf>", lambda c: each(lambda t: model.thin(c, 1.5 / 1.000277, t))(TINT), (2e-3, 0.02, 0.03)),
+                          + "</bsdf>", lambda c: each(lambda t: model.thin(c, 1.5 / 1.000277, t))(TINT),
+                          (0.002, 0.015, 0.08)),
     "slab": Exhibit('<bsdf type="dielectric">' + rgb("specular_transmittance", TINT) + number("int_ior", 1.8) + "</bsdf>",
-                    lambda c: each(lambda t: model.slab(c, 1.8 / 1.000277, t))(TINT), (2e-3, 0.02, 0.04), "cube"),
+                    lambda c: each(lambda t: model.slab(c, 1.8 / 1.000277, t))(TINT), (0.002, 0.012, 0.022), "cube"),
     "mask": Exhibit(f'<bsdf type="mask">{number("opacity", 0.3)}{MATT}</bsdf>', lambda c: 0.3 * RHO + 0.7),
     "blend": Exhibit(f'<bsdf type="blendbsdf">{number("weight", 0.25)}{MATT}{OTHER}</bsdf>',
                      lambda c: 0.75 * RHO + 0.25 * np.array((0.1, 0.8, 0.5))),
@@ -100,26 +102,26 @@ OLD = {
     "diffuse": Exhibit(twosided("diffuse", '<srgb name="reflectance" value="#8040c0"/>'),
                        lambda c: [linear(0x80), linear(0x40), linear(0xC0)]),
     "grey": Exhibit(twosided("diffuse", '<spectrum name="reflectance" value="0.35"/>'), lambda c: 0.35),
-    "conductor": Exhibit(twosided("conductor", METAL + number("ext_eta", 1.0)), metal, (2e-3, 0.02, 0.06)),
+    "conductor": Exhibit(twosided("conductor", METAL + number("ext_eta", 1.0)), metal, (0.002, 0.008, 0.03)),
     "plastic": Exhibit(twosided("plastic", rgb("diffuse_reflectance", RHO) + number("int_ior", 1.5) + number("ext_ior", 1)),
-                       lambda c: each(lambda rho: model.plastic(c, rho, 1.5))(RHO), (0.03, 0.03, 0.06)),
+                       lambda c: each(lambda rho: model.plastic(c, rho, 1.5))(RHO), (0.035, 0.038, 0.038)),
     "coating": Exhibit(f'<bsdf type="coating">{number("int_ior", 1.5)}{number("ext_ior", 1)}{MATT}</bsdf>',
-                       lambda c: each(lambda rho: model.coated(c, rho, 1.5))(RHO), (0.03, 0.03, 0.06)),
+                       lambda c: each(lambda rho: model.coated(c, rho, 1.5))(RHO), (0.004, 0.012, 0.016)),
     "phong": Exhibit(twosided("phong", rgb("diffuse_reflectance", RHO) + rgb("specular_reflectance", 0.3)
                               + number("exponent", 60)), lambda c: each(lambda rho: model.phong(c, rho, 0.3, 60))(RHO),
-                     (0.015, 0.1, 0.25)),
+                     (0.006, 0.09, 0.2)),
     "tinted metal": Exhibit(twosided("conductor", METAL + number("ext_eta", 1.0) + rgb("specular_reflectance", TINT)),
-                            lambda c: metal(c) * TINT, (2e-3, 0.02, 0.08)),
+                            lambda c: metal(c) * TINT, (0.002, 0.006, 0.08)),
     "one side": Exhibit(f'<bsdf type="diffuse">{rgb("diffuse_reflectance", RHO)}</bsdf>', lambda c: RHO),
     "mixture": Exhibit(f'<bsdf type="mixturebsdf"><string name="weights" value="0.3, 0.7"/>{MATT}{OTHER}</bsdf>',
                        lambda c: 0.3 * RHO + 0.7 * np.array((0.1, 0.8, 0.5))),
     "bump map": Exhibit(f'<bsdf type="bumpmap"><texture type="checkerboard"/>{MATT}</bsdf>', lambda c: RHO),
     "thin glass": Exhibit('<bsdf type="thindielectric">' + rgb("specular_transmittance", TINT) + number("int_ior", 1.5)
                           + number("ext_ior", 1) + "</bsdf>", lambda c: each(lambda t: model.thin(c, 1.5, t))(TINT),
-                          (2e-3, 0.02, 0.03)),
+                          (0.002, 0.015, 0.08)),
     "slab": Exhibit('<bsdf type="dielectric">' + rgb("specular_transmittance", TINT) + xml.word("int_ior", "water")
                     + number("ext_ior", 1) + "</bsdf>", lambda c: each(lambda t: model.slab(c, 1.333, t))(TINT),
-                    (2e-3, 0.02, 0.04), "cube"),
+                    (0.002, 0.012, 0.022), "cube"),
 }
 
 
