@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 import tempfile
 import time
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
+
+import numpy as np
 
 from importer.output.config import config_of, write_config
 from importer.output.glb import Totals, write_glb
@@ -76,8 +79,12 @@ class Outputs:
         """The config comes last, so that whatever it names is there."""
         files = [file for file in (self.sky, self.glb, self.config) if (folder / file.name).exists()]
         self.check(*files)
-        for file in files:
-            os.replace(folder / file.name, file)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+        try:  # all of them, once it has begun
+            for file in files:
+                os.replace(folder / file.name, file)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         return files
 
     @contextmanager
@@ -117,7 +124,8 @@ def run(options: argparse.Namespace) -> None:
 def main(arguments: list[str] | None = None) -> int:
     options = _options(arguments)
     try:
-        run(options)
+        with np.errstate(all="ignore"):  # what comes of numbers that are too large is checked where it is written
+            run(options)
     except ImportProblem as problem:
         print(f"import: {' '.join(str(problem).split())}", file=sys.stderr)
         return 1
@@ -130,8 +138,12 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"import: {options.scene}: it needs more memory than there is; a smaller scene would be right",
               file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("import: stopped", file=sys.stderr)
+        return 130  # of a program that SIGINT ends
     return 0
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # which leaves no more behind than SIGINT
     sys.exit(main())

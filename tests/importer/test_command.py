@@ -8,6 +8,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -190,6 +191,21 @@ class CommandTest(unittest.TestCase):
         with mock.patch.object(command, "write_glb", side_effect=ImportProblem("a: no")), mock.patch("sys.stderr"):
             self.assertEqual(command.main([str(self.scene), str(glb), "--force"]), 1)
         self.assertEqual(([file.name for file in self.out.iterdir()], glb.read_bytes()), (["room.glb"], b"old"))
+
+    def test_who_stops_it_finds_nothing(self) -> None:
+        """At SIGINT as at SIGTERM, one line and no file, were it in the middle of writing."""
+        waits = ("import importer.output.glb as g, runpy, sys, time\n"
+                 "g.glb = lambda *a: (print(flush=True), time.sleep(60))\n"
+                 f"sys.argv = ['import', {str(self.scene)!r}, {str(self.out / 'a.glb')!r}]\n"
+                 "runpy.run_module('importer', run_name='__main__')")
+        for number in (signal.SIGINT, signal.SIGTERM):
+            program = subprocess.Popen(["/usr/bin/python3", "-c", waits], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       text=True, env={**os.environ, "PYTHONPATH": str(ROOT / "configs")})
+            program.stdout.readline()
+            self.assertEqual(len(list(self.out.iterdir())), 1)  # the folder that it writes into
+            program.send_signal(number)
+            self.assertEqual((program.communicate()[1], program.returncode), ("import: stopped\n", 130))
+            self.assertEqual(list(self.out.iterdir()), [])
 
     def test_progress(self) -> None:
         """On a terminal one line after a few seconds, which is gone at the end; elsewhere nothing."""

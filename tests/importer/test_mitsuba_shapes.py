@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import unittest
 
 import numpy as np
@@ -240,6 +241,16 @@ class InstanceTest(MitsubaTest):
         scene = self.read('<shape type="shapegroup" id="g"><shape type="rectangle"/></shape><shape type="instance">'
                           '<ref id="g"/><transform name="to_world"><scale x="-1" z="-1" y="-1"/></transform></shape>')
         self.assert_close(world_fronts(scene.parts[0]), [(0, 0, -1)] * 2)
+
+    def test_merges_that_double_are_counted_before_they_are_read(self) -> None:
+        """40 steps are more shapes than any machine holds."""
+        cubes = '<shape type="merge" id="m0"><shape type="cube"/><shape type="cube"/></shape>'
+        steps = cubes + "".join(f'<shape type="merge" id="m{i}"><ref id="m{i - 1}"/><ref id="m{i - 1}"/></shape>'
+                                for i in range(1, 40))
+        start = time.monotonic()
+        self.assertIn("one of more than 1000000 shapes", self.problem(steps))
+        self.assertLess(time.monotonic() - start, 2)
+        self.assertEqual(len(self.read(steps.split('<shape type="merge" id="m3">')[0]).parts), 2 + 4 + 8)
 
     def test_what_is_wrong(self) -> None:
         self.assertIn("needs one <ref>", self.problem('<shape type="instance"/>'))

@@ -139,6 +139,24 @@ class GlbTest(unittest.TestCase):
         self.refused("one below 0", triangles=np.array([[0, 1, -1]]))
         self.refused("three a vertex", positions=np.zeros((3, 2)))
 
+    def test_what_single_precision_does_not_hold(self) -> None:
+        """A .glb of numbers beyond it would be read as one of infinities."""
+        far = np.eye(4)
+        far[0, 3] = 1e39
+        with self.assertRaisesRegex(ImportProblem, "^shape part: its transform reaches 1e.39; numbers that single"):
+            self.glb(Part("part", TRIANGLE, GREY, far))
+        large = dataclasses.replace(TRIANGLE, positions=TRIANGLE.positions * 1e20)
+        with self.assertRaisesRegex(ImportProblem, "^shape part: what its transform makes of it reaches 2e.40"):
+            self.glb(Part("part", large, GREY, np.diag([1e20, 1e20, 1e20, 1])))
+        with self.assertRaisesRegex(ImportProblem, "^camera: its transform reaches"):
+            self.glb(camera=Camera(far, 40.0))
+        with self.assertRaisesRegex(ImportProblem, "^camera: half its picture's height"):
+            self.glb(camera=Camera(np.eye(4), None, 1e39))
+        with self.assertRaisesRegex(ImportProblem, "^light a: its position reaches"):
+            self.glb(lights=(Light("a", LightKind.POINT, (1.0, 1, 1), (1e39, 0, 0)),))
+        glb = self.glb(lights=(Light("a", LightKind.DIRECTIONAL, (1.0, 1, 1), direction=(1e300, 0, 0)),))
+        np.testing.assert_allclose(glb.matrix("a") @ [0, 0, -1, 0], [1, 0, 0, 0], atol=1e-12)
+
     def test_impossible_cameras_and_lights(self) -> None:
         for camera, said in ((Camera(np.eye(4), 180.0), "180 degrees"), (Camera(np.eye(4), float("nan")), "nan degrees"),
                              (Camera(np.eye(4), None, 0.0), "height is 0"), (Camera(np.eye(4), 40.0, width=0), "0 x 512")):

@@ -21,6 +21,25 @@ GROUPS = ("shapegroup", "instance", "merge")
 _MAX_PARTS = 1_000_000  # with all instances
 
 
+def check_count(shapes: list[Plugin]) -> None:
+    """Before any is read: merges of merges double what there is at each step."""
+    counts: dict[int, int] = {}
+    total = 0
+    for shape in shapes:
+        total += _count(shape, counts) if shape.type != "shapegroup" else 0  # which instances show
+        if total > _MAX_PARTS:
+            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
+                                "are read")
+
+
+def _count(shape: Plugin, counts: dict[int, int]) -> int:
+    """Of a shape and those that it holds; each object is counted once, however many refer to it."""
+    if shape.key not in counts:
+        inner = [child for child in shape.children if child.kind == "shape"] if shape.type in GROUPS else []
+        counts[shape.key] = sum(_count(child, counts) for child in inner) if inner else 1
+    return counts[shape.key]
+
+
 @dataclass
 class PartReader:
     shapes: ShapeReader
@@ -59,9 +78,6 @@ class PartReader:
             self.add(child, to_world)
 
     def _single(self, shape: Plugin, outer: np.ndarray) -> None:
-        if len(self.parts) >= _MAX_PARTS:
-            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
-                                "are read")
         if shape.key not in self._read:
             self._read[shape.key] = self._geometry_and_material(shape)
         geometry, material = self._read[shape.key]
