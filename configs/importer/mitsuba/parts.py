@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from importer.materials import models
+from importer.materials.normal_maps import NormalMaps
 from importer.materials.parameters import scaled
 from importer.mitsuba.colours import Use
 from importer.mitsuba.materials import MaterialReader
-from importer.mitsuba.normal_maps import NormalMaps
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, Geometry, ShapeReader
 from importer.mitsuba.transforms import mirrors

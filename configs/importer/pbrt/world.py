@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
 from importer.materials import colours, models
 from importer.materials import parameters as arithmetic
+from importer.materials.normal_maps import NormalMaps
 from importer.meshes import orient
 from importer.pbrt.lights import emission
 from importer.pbrt.materials import Materials
@@ -42,6 +43,7 @@ class World:
         self._objects: dict[str, list[Part]] = {}
         self._object: tuple[str, list[Part]] | None = None
         self._variants: dict[tuple[Mesh, str], Mesh] = {}
+        self._normal_maps = NormalMaps()
         self._radiances: dict[Definition, Colour] = {}
 
     def begin_object(self, statement: Statement) -> None:
@@ -65,7 +67,8 @@ class World:
             raise ImportProblem(f'{statement.place}: there is no object "{name}"; ObjectBegin must define it before')
         check_usable(to_world, statement.place)
         for part in self._objects[name]:
-            self._add(self.parts, Part(part.name, part.mesh, part.material, to_world @ part.to_world), statement.place)
+            moved = Part(part.name, part.mesh, part.material, to_world @ part.to_world)
+            self._add(self.parts, self._with_suited_normals(moved), statement.place)
 
     def add_shape(self, kind: str, parameters: Parameters, state: State) -> None:
         check_usable(state.to_world, parameters.place)
@@ -80,7 +83,10 @@ class World:
             assert made is not None
             name = mesh.name if kind == "plymesh" else f"{kind} of line {parameters.place.line}"
             part = Part(name, self._fitting(mesh, made), made, state.to_world)
-            self._add(self.parts if self._object is None else self._object[1], part, parameters.place)
+            if self._object is None:
+                self._add(self.parts, self._with_suited_normals(part), parameters.place)
+            else:
+                self._add(self._object[1], part, parameters.place)
         parameters.finish(self._notes)
 
     def _material(self, parameters: Parameters, state: State) -> tuple[Material | None, bool]:
@@ -158,6 +164,13 @@ class World:
             return 1.0
         mean = colours.luminance(arithmetic.mean_rgb(self._textures.emission(name, str(lamp.place))))
         return mean if mean > 0 else 1.0
+
+    def _with_suited_normals(self, part: Part) -> Part:
+        """A normal map in glTF's frame, which depends on whether the whole transformation mirrors."""
+        if part.material.normal_map is None:
+            return part
+        is_mirrored = bool(np.linalg.det(part.to_world[:3, :3]) < 0)
+        return replace(part, material=self._normal_maps.suited(part.material, part.mesh, is_mirrored))
 
     def _fitting(self, mesh: Mesh, material: Material) -> Mesh:
         """The mesh as the material needs it: with texture coordinates, and turned inside out for a bubble in glass."""

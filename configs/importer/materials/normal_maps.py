@@ -1,7 +1,8 @@
-"""Normal maps from Mitsuba's frame into glTF's.
+"""Normal maps from the frame of Mitsuba and pbrt-v4 into glTF's.
 
-In both x runs along u. Mitsuba's y is the cross product of the normal and x (NormalMap::frame), glTF's runs against v.
-Where u, v and the normal are right-handed, these are opposite to each other."""
+In all of them x runs along u. Theirs has the cross product of the normal and x for y (Mitsuba: NormalMap::frame; pbrt:
+NormalMap, Frame::FromXZ); glTF's y runs against v. Where u, v and the normal are right-handed, v being that of `Mesh`, these
+are opposite to each other."""
 
 from __future__ import annotations
 
