@@ -143,9 +143,9 @@ class Version3(unittest.TestCase):
     def test_no_roughness_is_smooth_in_glass_alone(self) -> None:
         """And there only where both are 0 (GlassMaterial); elsewhere the polynomial makes an alpha of 0.04727 of it."""
         least = math.sqrt(0.04727)
-        for kind, said in (("metal", '"float roughness" 0'), ("plastic", '"float roughness" 0'),
+        for kind, values in (("metal", '"float roughness" 0'), ("plastic", '"float roughness" 0'),
                            ("uber", '"float roughness" 0'), ("substrate", '"float uroughness" 0 "float vroughness" 0')):
-            self.assertAlmostEqual(float(self.made(f'Material "{kind}" {said}').roughness), least, 3, kind)
+            self.assertAlmostEqual(float(self.made(f'Material "{kind}" {values}').roughness), least, 3, kind)
         self.assertEqual(self.made('Material "glass"').roughness, 0.0)
         made = self.made('Material "glass" "float uroughness" 0 "float vroughness" .1')
         self.assertAlmostEqual(float(made.roughness), (0.04727 * 0.461749) ** 0.25, 3)
