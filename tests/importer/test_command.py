@@ -192,6 +192,23 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(command.main([str(self.scene), str(glb), "--force"]), 1)
         self.assertEqual(([file.name for file in self.out.iterdir()], glb.read_bytes()), (["room.glb"], b"old"))
 
+    def test_names_of_any_kind(self) -> None:
+        """Neither one without an end nor one that would steer a terminal or that its letters do not hold."""
+        text = self.scene.read_text()
+        self.scene.write_text(text.replace("meshes/sail.obj", "long" * 2000))
+        self.assertLess(len(self.refused(self.scene, self.out / "a.glb")), 800)
+        self.scene.with_suffix(".pbrt").write_text("\x1bc\0World")
+        self.assertIn("\ufffdc\ufffdWorld", self.refused(self.scene.with_suffix(".pbrt"), self.out / "a.glb"))
+        self.scene.write_text(text)
+        no_text = os.fsdecode(b"\xe4")
+        self.assertIn("its name is no UTF-8", self.refused(self.folder / f"{no_text}.xml", self.out / "a.glb"))
+        self.assertIn("its name is no UTF-8", self.refused(self.scene, self.out / f"{no_text}.glb"))
+        (self.folder / no_text).mkdir()
+        result = subprocess.run(["/usr/bin/python3", "-m", "importer", self.scene, self.folder / no_text / "\xe4.glb"],
+                                capture_output=True, env={**os.environ, "PYTHONPATH": str(ROOT / "configs"),
+                                                          "PYTHONIOENCODING": "ascii"})
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+
     def test_who_stops_it_finds_nothing(self) -> None:
         """At SIGINT as at SIGTERM, one line and no file, were it in the middle of writing."""
         waits = ("import importer.output.glb as g, runpy, sys, time\n"

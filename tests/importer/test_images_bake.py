@@ -119,6 +119,15 @@ class CombinedTest(unittest.TestCase):
         np.testing.assert_array_equal(found.image_from_uv, a.image_from_uv)
         self.assertEqual(found.scale, (1, 1, 1))
 
+    def test_names_do_not_double(self) -> None:
+        """Textures mixed of mixed ones are as deep as the source has them, and their names must not fill the memory."""
+        a, b = (Texture(Image(name, grey([[0.5]]))) for name in ("wood", "bark"))
+        self.assertEqual(bake.combined(a, b, np.add).image.name, "wood_bark")
+        self.assertEqual(bake.combined(a, a, np.add).image.name, "wood")
+        for _ in range(60):
+            a = bake.combined(a, replace(b, image=Image(f"{a.image.name}*", b.image.pixels)), np.multiply)
+        self.assertLess(len(a.image.name), 100)
+
     def test_a_texture_and_a_colour(self) -> None:
         a = texture(grey([[0.5, 0.25]]), scale=(3, 3), wrap=(Wrap.CLAMP, Wrap.MIRRORED))
         for found in (bake.combined(a, (1, 0.5, 9), np.multiply), bake.combined((1, 0.5, 9), a, np.multiply)):

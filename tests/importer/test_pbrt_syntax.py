@@ -23,6 +23,14 @@ class Reading(unittest.TestCase):
         self.assertAlmostEqual(low[2], -1, 6)
         self.assertAlmostEqual(high[2], 2, 6)
 
+    def test_of_two_parameters_with_one_name_the_last_holds(self) -> None:
+        scene, notes = world('Shape "sphere" "float radius" 2 "float zmin" -1 "float radius" 3')
+        self.assertAlmostEqual(scene.parts[0].mesh.positions.max(), 3, 6)
+        self.assertNotIn("radius", " ".join(said(notes)))
+
+    def test_a_byte_order_mark_is_no_word(self) -> None:
+        self.assertEqual(len(read(f"\ufeff{HEAD}WorldBegin\n{TRIANGLE}")[0].parts), 1)
+
     def test_a_list_with_comments_and_one_without_are_the_same(self) -> None:
         text = 'Shape "trianglemesh" "point3 P" [0 0 0 {}1 0 0  0 1e0 +0] "integer indices" [0 1 2]'
         plain, _ = world(text.format(""))
