@@ -155,6 +155,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.stdout.reconfigure(errors="backslashreplace")  # of terminals that do not know all letters
+    if sys.stdout is not None:  # which may be closed
+        sys.stdout.reconfigure(errors="backslashreplace")  # of terminals that do not know all letters
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # which leaves no more behind than SIGINT
     sys.exit(main())
