@@ -243,8 +243,9 @@ class Skies(unittest.TestCase):
     def test_illuminance_of_an_image(self) -> None:
         """A white sky of radiance 1 gives pi on what faces up; 5 are asked for."""
         files = {"a.pfm": pfm(np.ones((32, 32, 3)))}
-        sky = world('LightSource "infinite" "string filename" "a.pfm" "float illuminance" 5', files=files)[0].sky
-        self.assertAlmostEqual(sky.scale[0], 5 / math.pi, delta=0.01)
+        scene, notes = world('LightSource "infinite" "string filename" "a.pfm" "float illuminance" 5', files=files)
+        self.assertAlmostEqual(scene.sky.scale[0], 5 / math.pi, delta=0.01)
+        self.assertIn("twice as much", " ".join(said(notes)))
 
     def test_an_image_and_a_constant(self) -> None:
         files = {"a.pfm": pfm(np.ones((4, 4, 3)))}
