@@ -82,8 +82,8 @@ class Skies:
                                         ' "illuminance"; it must be bright there')
                 scale = scaled(scale, illuminance / there)
                 # Its sum over the upper half of the image has 2 pi over all pixels for their solid angle (Light::Create).
-                self._notes.approximated('the "illuminance" of a sky with an image as what it says; pbrt-v4 itself shows twice'
-                                         " as much", where)
+                self._notes.approximated('the "illuminance" of a sky with an image as what it says; pbrt-v4 itself shows'
+                                         " twice as much", where)
             self._notes.approximated("the octahedral map of a sky by latitudes and longitudes", where)
             image = latitude_longitude(image)
         turned, is_orthogonal = orthogonal_part(of_directions(to_world, parameters.place))
