@@ -14,8 +14,8 @@ _LINE = re.compile(rb"[^\n]*\n")
 _NUMBERS = (b"0", b"-0", b"1", b"-1", b"0.5", b"2", b"3", b"nan", b"inf", b"-inf", b"1e300", b"-1e300", b"1e-300", b"1e38",
             b"1e19", b"255", b"65535", b"65536", b"100000", b"2147483647", b"2147483648", b"4294967295",
             b"18446744073709551616", b"0x10", b"1_0", b"1f", b"$grey", b"", b"1 2", b"1,2,3", b"#ff8000", b"true")
-_BYTES = (b"\0", b"\xff", b"\x7f", b"\x80", b"\xff\xff\xff\xff", b"\0\0\0\x80", b"\0\0\xc0\x7f", b"\0\0\x80\x7f", b"\n", b'"',
-          b"<", b">", b"[", b"]", b"&#0;", b"]]>", b"<!--", b"\xef\xbb\xbf", b"\r\n", b"\xc3")
+_BYTES = (b"\0", b"\xff", b"\x7f", b"\x80", b"\xff\xff\xff\xff", b"\0\0\0\x80", b"\0\0\xc0\x7f", b"\0\0\x80\x7f",
+          b"\n", b'"', b"<", b">", b"[", b"]", b"&#0;", b"]]>", b"<!--", b"\xef\xbb\xbf", b"\r\n", b"\xc3")
 
 
 class Mutator:

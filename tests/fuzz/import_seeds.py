@@ -24,14 +24,15 @@ Case = dict[str, bytes]  # a scene's files by name; the scene is the one whose n
 
 _CORNERS = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.1)])
 _UVS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-_OBJ = ("# two faces\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0.1\nvt 0 0\nvt 1 0\nvn 0 0 1\ng a\nusemtl red\ns 1\n"
-        "f 1/1/1 2/2/1 3/1/1\nf -4//-1 3//1 \\\n4//1\nf 1 2 3 4\n")
+_OBJ = ("# two faces\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0.1\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+        "g a\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/1/1\nf -4//-1 3//1 \\\n4//1\nf 1 2 3 4\n")
 _PLY = ("ply\nformat {} 1.0\ncomment a plate\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         "property float u\nproperty float v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n")
-_MITSUBA = ('<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor>{}<shape type="cube">{}</shape>'
-            "</scene>")
+_MITSUBA = ('<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor>{}'
+            '<shape type="cube">{}</shape></scene>')
 _PBRT = 'Camera "perspective"\nFilm "rgb"\nWorldBegin\n{}\nShape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ]\n'
-_TEXTURE = '<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="{}"/></texture></bsdf>'
+_TEXTURE = ('<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="{}"/></texture>'
+            "</bsdf>")
 
 
 def _ply(is_binary: bool) -> bytes:

@@ -5,8 +5,9 @@ libFuzzer makes up, and the importer with scenes that import_fuzz.py does.
     ./dev fuzz [SECONDS] [--only config|gltf|image|hdr|import] [--corpus FOLDER] [--seed N]
 
 SECONDS for each of them (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
-where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all, or answers with anything but a result or a
-clear error (the importer: where it takes more than 10 s or 1 GB, or ends in another way than whole or with one line); the input that made it do so is kept in build/fuzz/findings. --corpus keeps what was learned for another time.
+where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all (the importer: 1 GB, or 10 s), or answers
+with anything but a result or a clear error; the input that made it do so is kept in build/fuzz/findings. --corpus keeps
+what was learned for another time.
 """
 
 from __future__ import annotations
@@ -139,8 +140,8 @@ def fuzz(target: str, options: argparse.Namespace, folder: Path) -> bool:
 def fuzz_import(options: argparse.Namespace) -> bool:
     """Needs no build: the importer is Python, and so is what makes up its scenes."""
     corpus = ["--corpus", Path(options.corpus, "import")] if options.corpus else []
-    command = [sys.executable, ROOT / "tests/fuzz/import_fuzz.py", str(options.seconds), "--seed", str(options.seed), *corpus,
-               "--findings", FINDINGS / "import"]
+    command = [sys.executable, ROOT / "tests/fuzz/import_fuzz.py", str(options.seconds), "--seed", str(options.seed),
+               "--findings", FINDINGS / "import", *corpus]
     return subprocess.run(command).returncode == 0
 
 
