@@ -91,6 +91,21 @@ class Bodies(unittest.TestCase):
         self.assertEqual((made.roughness, made.specular), (0.0, 0.0))
         self.assertEqual(self.notes.rows(), [])
 
+    def test_what_is_left_of_light_within(self) -> None:
+        """exp(-absorption * length), whatever the length that glTF has it for; a wall without a body takes up nothing."""
+        glass = models.dielectric("g", 1.5, 1.0, 0.0, WHITE, WHITE, Notes(), "here")
+        found = models.absorbing(glass, (250.0, 1000.0, 0.0), "here")
+        for length in (1e-4, 2e-3):
+            left = np.array(found.attenuation_colour) ** (length / found.attenuation_distance)
+            np.testing.assert_allclose(left, np.exp(-length * np.array((250.0, 1000.0, 0.0))), rtol=1e-12)
+        self.assertIs(models.absorbing(glass, (0.0, 0.0, 0.0), "here"), glass)
+        with self.assertRaisesRegex(ImportProblem, "^here: what a medium absorbs on a unit of length is 1e"):
+            models.absorbing(glass, (1e300, 0.0, 0.0), "here")
+        bubble = models.dielectric("b", 1.0, 1.5, 0.0, WHITE, WHITE, Notes(), "here")
+        pane = models.thin_dielectric("p", 1.5, 1.0, WHITE, WHITE, Notes(), "here")
+        grey = models.diffuse("d", WHITE, Notes(), "here")
+        self.assertEqual([models.can_absorb(one) for one in (glass, bubble, pane, grey)], [True, False, False, False])
+
     def test_a_factor_of_what_is_reflected_is_noted(self) -> None:
         made = self.make(1.5, 1.0, reflectance=BLACK)
         self.assertEqual(made.specular, 0.0)

@@ -143,6 +143,22 @@ class ModelsTest(MaterialsTest):
         self.assertIs(scene.parts[0].material, scene.parts[1].material)
         self.assertEqual(scene.parts[0].material.name, "a")
 
+    def test_media_that_only_absorb_are_the_glass(self) -> None:
+        """0.6 has sigmaS and sigmaA, or sigmaT and albedo; Mitsuba 3 the latter; both times scale (homogeneous.cpp)."""
+        shape = '<shape type="sphere"><bsdf type="{}"/><medium type="homogeneous" name="{}">{}</medium></shape>'
+        absorbs = '<rgb name="sigmaS" value="0, 0, 0"/><rgb name="sigmaA" value="1, 2, 4"/><float name="scale" value="10"/>'
+        total = '<float name="albedo" value="0"/><rgb name="sigma_t" value="10, 20, 40"/><phase type="isotropic"/>'
+        for text, version in ((absorbs, "0.6.0"), (total, "3.0.0")):
+            material = self.read(shape.format("dielectric", "interior", text), version).parts[0].material
+            left = np.log(material.attenuation_colour) / material.attenuation_distance
+            self.assert_close(left, (-10, -20, -40), 1e-9)
+            self.assertFalse([note for note in self.noted() if "medi" in note or "phase" in note])
+        scatters = total.replace('"0"', '"0.1"')
+        for bsdf, name, text in (("dielectric", "interior", scatters), ("dielectric", "exterior", total),
+                                 ("thindielectric", "interior", total), ("diffuse", "interior", total),
+                                 ("dielectric", "interior", "")):
+            self.assertIn("a medium that scatters light, or is not within", self.problem(shape.format(bsdf, name, text)))
+
     def test_what_is_refused(self) -> None:
         self.assertIn('"hk"', self.problem('<shape type="cube"><bsdf type="hk"/></shape>'))
         self.part('<bsdf type="ward"><rgb name="diffuse_reflectance" value="1"/></bsdf>', is_lenient=True)

@@ -172,6 +172,7 @@ class Problems(unittest.TestCase):
         self.check('Shape "cube"', 'there is no shape "cube"')
         self.check('LightSource "sun"', 'there is no light "sun"')
         self.check('AreaLightSource "spot"', 'there is no area light "spot"')
+        self.check(f'MediumInterface "fog" ""\n{TRIANGLE}', 'there is no medium "fog"')
         self.check('ColorSpace "adobe"', 'is no colour space')
         self.check('Attribute "film" "float a" 1', 'Attribute is about "film"')
 
@@ -185,7 +186,7 @@ class Problems(unittest.TestCase):
 
     def test_refused_unless_lenient(self) -> None:
         for text, word in (('Shape "curve"', "curve"), ('Shape "loopsubdiv"', "subdivision"),
-                           ('Material "hair"\nShape "sphere"', "hair"), ('MediumInterface "fog" ""', "medium"),
+                           ('Material "hair"\nShape "sphere"', "hair"), ('MediumInterface "" "fog"', "medium"),
                            ('LightSource "goniometric"', "goniometric"), ("ActiveTransform EndTime", "shutter")):
             self.check(text, word, "--lenient leaves it out")
             scene, notes = world(text + "\n" + TRIANGLE, is_lenient=True)

@@ -11,6 +11,7 @@ from importer.materials.normal_maps import NormalMaps
 from importer.materials.parameters import scaled
 from importer.mitsuba.colours import Use
 from importer.mitsuba.materials import MaterialReader
+from importer.mitsuba.media import read_absorption
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, Geometry, ShapeReader
 from importer.mitsuba.transforms import mirrors
@@ -94,9 +95,7 @@ class PartReader:
 
     def _material(self, shape: Plugin) -> Material:
         emitter = shape.only("emitter")
-        has_medium = bool(shape.all_of("medium"))
-        if has_medium:
-            self.notes.refuse("a medium", shape.where)
+        media = shape.all_of("medium")
         if shape.all_of("subsurface"):
             self.notes.refuse("light that scatters below a surface (subsurface)", shape.where)
         if shape.all_of("sensor"):
@@ -104,12 +103,23 @@ class PartReader:
         bsdf = self._bsdf(shape)
         if bsdf:
             material = self.materials.read(bsdf)
-        elif has_medium and not emitter:
+        elif media and not emitter:
             material = models.null("null")
         else:  # Shape::configure of 0.6, Shape::Shape of 3
             grey = 0.0 if emitter else 0.5
             material = models.diffuse("default", (grey, grey, grey), self.notes, shape.where)
+        if media:
+            material = self._filled(material, media, shape)
         return self._lit(material, emitter, shape) if emitter else material
+
+    def _filled(self, material: Material, media: list[Plugin], shape: Plugin) -> Material:
+        """Glass that takes up light says so itself."""
+        if models.can_absorb(material) and [medium.name for medium in media] == ["interior"]:
+            absorption = read_absorption(media[0], self.notes)
+            if absorption is not None:
+                return models.absorbing(material, absorption, media[0].where)
+        self.notes.refuse("a medium that scatters light, or is not within glass", shape.where)
+        return material
 
     def _bsdf(self, shape: Plugin) -> Plugin | None:
         """0.6 takes several for the groups of an .obj, by their names there, and those of the .obj's .mtl file."""

@@ -33,6 +33,7 @@ class State:
     is_reversed: bool = False
     material: Definition | None = None  # None: the default one
     area_light: Definition | None = None
+    medium: str = ""  # within the shapes that follow
     colour_space: str = "srgb"
     attributes: dict[str, tuple[Parameter, ...]] = field(default_factory=dict)
     materials: dict[str, Definition] = field(default_factory=dict)

@@ -14,6 +14,7 @@ from importer.meshes import orient
 from importer.pbrt.lights import emission
 from importer.pbrt.materials import Materials
 from importer.pbrt.materials_v3 import OVERRIDES
+from importer.pbrt.media import Media
 from importer.pbrt.parameters import Parameters
 from importer.pbrt.shapes import Shapes, power_area, with_default_uvs
 from importer.pbrt.source import Place
@@ -44,6 +45,7 @@ class World:
         self._object: tuple[str, list[Part]] | None = None
         self._variants: dict[tuple[Mesh, str], Mesh] = {}
         self._normal_maps = NormalMaps()
+        self.media = Media(spectra, notes)
         self._radiances: dict[Definition, Colour] = {}
 
     def begin_object(self, statement: Statement) -> None:
@@ -102,6 +104,8 @@ class World:
             parameters.without_effect("alpha", "shadowalpha")
             self._notes.left_out("surfaces without a material, which nothing sees", str(parameters.place))
             return None, False
+        if state.medium:
+            material = self.media.filled(material, state.medium, parameters.place)
         masked = self._materials.masked(material, parameters, state)
         if masked is None and state.area_light is not None and self._version == 4:
             # pbrt-v4 keeps such a lamp's light and lets no ray meet it (DiffuseAreaLight, constant alpha of 0).
