@@ -16,6 +16,6 @@ from importer.materials.simple import diffuse, diffuse_transmitter, lamp, masked
 __all__ = [
     "InwardGlass", "absorbing", "blended", "can_absorb", "coated", "coated_conductor", "coated_diffuse", "conductor",
     "conductor_of_reflectance", "dielectric", "diffuse", "diffuse_transmitter", "exact_mirror", "index_of_specular",
-    "indices_of_reflectance", "is_inward", "lambert_and_gloss", "lamp", "masked", "mirror", "null", "phong", "plastic", "principled",
-    "rough_diffuse", "substrate", "thin_dielectric", "uber",
+    "indices_of_reflectance", "is_inward", "lambert_and_gloss", "lamp", "masked", "mirror", "null", "phong", "plastic",
+    "principled", "rough_diffuse", "substrate", "thin_dielectric", "uber",
 ]
