@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 from pathlib import Path
@@ -77,6 +78,27 @@ class SerializedTest(unittest.TestCase):
         np.testing.assert_allclose(flat.normals[:3], np.tile((0, 0, 1), (3, 1)), atol=1e-7)
         # (2, 1, 0) x (0, 1, 0.1) = (0.1, -0.2, 2)
         np.testing.assert_allclose(flat.normals[3:], np.tile(np.array((0.1, -0.2, 2)) / 4.05**0.5, (3, 1)), atol=1e-7)
+
+    def test_what_lies_behind_a_mesh_is_not_read(self) -> None:
+        """Scenes of Mitsuba 0.6 have one file of hundreds of meshes, and each shape asks it for its own."""
+        with self.path.open("wb") as out:
+            out.write(mesh())
+            out.seek(1 << 31)
+            out.write(mesh(shift=3) + np.array([0, 1 << 31], "<u8").tobytes() + struct.pack("<I", 2))
+        start = time.monotonic()
+        for _ in range(50):
+            self.assertEqual([read_serialized(self.path, index).positions[0, 0] for index in (0, 1)], [0, 3])
+        self.assertLess(time.monotonic() - start, 2)
+
+    def test_long_meshes(self) -> None:
+        """Of more than one piece of packed bytes, which numbers without an order fill."""
+        count = 200_000
+        values = np.random.default_rng(1).random((count, 3)).astype("<f4")
+        body = struct.pack("<I", 0x1000) + b"long\0" + struct.pack("<QQ", count, 1) + values.tobytes()
+        packed = struct.pack("<HH", 0x041C, 4) + zlib.compress(body + np.array([0, 1, 2], "<u4").tobytes())
+        np.testing.assert_array_equal(self.read(file(4, [packed])).positions, values)
+        with self.assertRaisesRegex(ImportProblem, "truncated"):
+            self.read(packed[:-5000])
 
     def test_faults_are_one_sentence(self) -> None:
         three = file(4, [mesh()] * 3)
