@@ -33,6 +33,9 @@ _OF_SOURCE = ("width", "height", "max_bounces", "russian_roulette_start", "envir
 _KEYS: dict[str, Any] = {"sampler": "bsdf", "nee": "one_ray", "random": "independent", "reference": {"frames": 2}}
 
 
+FIRST_HITS = {"max_bounces": 0, "russian_roulette_start": 0}  # for tests that look at nothing else
+
+
 @dataclass(frozen=True)
 class Source:
     """A scene file, what stands beside it, options of the command, and keys over those of the config that it writes."""
@@ -64,14 +67,15 @@ def render(sources: Mapping[str, Source], extension: str, **keys: Any) -> dict[s
     """All in one process of the program, by label."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        cases = {label: _imported(folder / label, source, extension) for label, source in sources.items()}
+        names = {label: f"c{number}" for number, label in enumerate(sources)}  # the program's folders have no spaces
+        cases = {names[label]: _imported(folder / names[label], source, extension) for label, source in sources.items()}
         config = {"name": "radiance", **_KEYS, **keys, "snapshots": [keys["frames"]], "sweep": [{"case": cases}]}
         (folder / "radiance.json").write_text(json.dumps(config))
         result = subprocess.run([PROGRAM, "run", folder / "radiance.json", "--quiet", "--out", folder / "out"],
                                 capture_output=True, text=True)
         if result.returncode:
             raise AssertionError(f"the program ended with {result.returncode}: {result.stderr}")
-        return {label: _picture(folder, label) for label in sources}
+        return {label: _picture(folder, names[label]) for label in sources}
 
 
 def _imported(folder: Path, source: Source, extension: str) -> dict[str, Any]:
@@ -94,8 +98,8 @@ def _imported(folder: Path, source: Source, extension: str) -> dict[str, Any]:
     return {"scene": f"{folder.name}/scene.glb", **keys, **source.keys}
 
 
-def _picture(folder: Path, label: str) -> Picture:
-    place = next(path for path in (folder / "out").rglob("first_hit.exr") if path.parent.name == f"case={label}").parent
+def _picture(folder: Path, name: str) -> Picture:
+    place = folder / "out/radiance" / f"case={name}"
     first = read_exr(place / "first_hit.exr").channels
     final = read_exr(sorted(place.glob("frame_*.exr"))[-1]).channels
     layers = {name: np.stack([first[f"{name}.{axis}"] for axis in axes], axis=2).astype(float)
@@ -103,7 +107,7 @@ def _picture(folder: Path, label: str) -> Picture:
     variance = np.stack([final[f"variance.{channel}"] for channel in "RGB"], axis=2).astype(float)
     radiance = np.stack([final[channel] for channel in "RGB"], axis=2).astype(float)
     return Picture(radiance, np.sqrt(np.maximum(variance, 0)), **layers,
-                   notes=tuple((folder / label / "said.txt").read_text().splitlines()))
+                   notes=tuple((folder / name / "said.txt").read_text().splitlines()))
 
 
 def mean_of(picture: Picture, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

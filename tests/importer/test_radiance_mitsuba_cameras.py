@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import mitsuba_rays as rays
 import mitsuba_xml as xml
-from rendering import RadianceTest, Source
+from rendering import FIRST_HITS, RadianceTest, Source
 
 _TEXELS = 128
 _WALL: list[rays.Step] = [("scale", (14, 14, 1)), ("translate", (0, 0, -6))]
@@ -96,10 +96,10 @@ class CamerasTest(RadianceTest):
     @classmethod
     def sources(cls) -> dict[str, Source]:
         cameras = {**CAMERAS, "cropped": CROPPED, "cropped orthographic": CROPPED_FLAT}
-        return {name.replace(",", ""): Source(camera.scene(), {"places.pfm": places()}) for name, camera in cameras.items()}
+        return {name: Source(camera.scene(), {"places.pfm": places()}, keys=FIRST_HITS) for name, camera in cameras.items()}
 
     def seen(self, name: str) -> np.ndarray:
-        return self.pictures[name.replace(",", "")].albedo[..., :2]
+        return self.pictures[name].albedo[..., :2]
 
     def test_the_ray_of_each_pixel(self) -> None:
         """To 0.0007 of the wall: texels are kept as half floats, whose steps are 0.0005 there."""

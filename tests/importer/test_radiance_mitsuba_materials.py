@@ -61,8 +61,8 @@ def rough_schlick(alpha: float) -> Callable[[float], np.ndarray]:
 
 
 # What is allowed is what the formulas of both models, put side by side, leave between them, and 0.006 at most besides:
-# Schlick's curve, masking that is height-correlated, GGX's wider skirt, and a diffuse lobe below a surface that is right in the
-# sum of all views alone. Silver and copper are those of table 9.2 of Real-Time Rendering (2018), of other measurements.
+# Schlick's curve, masking that is height-correlated, GGX's wider skirt, and a diffuse lobe below a surface that is right in
+# the sum of all views alone. Silver and copper are those of table 9.2 of Real-Time Rendering (2018), of other measurements.
 EXHIBITS = {
     "diffuse": Exhibit(MATT, lambda c: RHO),
     "principled metal": Exhibit(twosided("principled", rgb("base_color", RHO) + number("metallic", 1)

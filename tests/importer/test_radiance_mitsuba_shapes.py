@@ -15,7 +15,7 @@ import mitsuba_exhibits as gallery
 import mitsuba_rays as rays
 from mitsuba_exhibits import Colour, Exhibit, shape
 from mitsuba_scenes import linear, png
-from rendering import Picture, RadianceTest, Source
+from rendering import FIRST_HITS, Picture, RadianceTest, Source
 
 TEXELS = np.random.default_rng(5).integers(20, 250, (4, 8, 3))
 LINEAR = np.vectorize(linear)(TEXELS)
@@ -138,9 +138,9 @@ GROUP_XML = GROUP.format(moved=rays.steps_xml([("scale", (1, 0.5, 1)), ("rotate"
 class WhatIsSeenTest(RadianceTest):
     @classmethod
     def sources(cls) -> dict[str, Source]:
-        return {"3": Source(gallery.scene(SHAPES, "3.0.0"), FILES), "0.6": Source(gallery.scene(SHAPES, "0.6.0"), FILES),
-                "textures 3": Source(gallery.scene(TEXTURES_3, "3.0.0", also=GROUP_XML), FILES),
-                "textures 0.6": Source(gallery.scene(TEXTURES_OLD, "0.6.0"), FILES)}
+        return {"3": Source(gallery.scene(SHAPES, "3.0.0"), FILES, keys=FIRST_HITS), "0.6": Source(gallery.scene(SHAPES, "0.6.0"), FILES, keys=FIRST_HITS),
+                "textures 3": Source(gallery.scene(TEXTURES_3, "3.0.0", also=GROUP_XML), FILES, keys=FIRST_HITS),
+                "textures 0.6": Source(gallery.scene(TEXTURES_OLD, "0.6.0"), FILES, keys=FIRST_HITS)}
 
     def compare(self, picture: Picture, exhibits: list[Exhibit]) -> None:
         seen = gallery.view(exhibits)
@@ -204,7 +204,7 @@ class WhatShinesTest(RadianceTest):
     @classmethod
     def sources(cls) -> dict[str, Source]:
         return {f"{version} {'behind' if from_behind else 'before'}":
-                Source(gallery.scene(lamps(version < "2"), version, from_behind), FILES)
+                Source(gallery.scene(lamps(version < "2"), version, from_behind), FILES, keys=FIRST_HITS)
                 for version in ("3.0.0", "0.6.0") for from_behind in (False, True)}
 
     def compare(self, version: str) -> None:
