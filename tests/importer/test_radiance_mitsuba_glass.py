@@ -72,14 +72,14 @@ class GlassTest(RadianceTest):
         return 1 + 0.8 * (np.cos(turn)[..., None] * along + np.sin(turn)[..., None] * side)
 
     def test_a_ball_of_glass(self) -> None:
-        """Schlick's curve is off by 0.03 at most up to there."""
+        """Schlick's curve is off by 0.03 at most up to there, and by 0.004 in the mean."""
         expected, is_known = self.through_the_ball()
         self.assertGreater(is_known.mean(), 0.7)
         for name in ("ball 3", "ball 0.6"):
             picture: Picture = self.pictures[name]
-            self.assert_near(picture.radiance[is_known], expected[is_known], 6 * picture.error[is_known] + 0.05, name)
+            self.assert_near(picture.radiance[is_known], expected[is_known], 6 * picture.error[is_known] + 0.03, name)
             mean, error = mean_of(picture, is_known)
-            self.assert_near(mean, expected[is_known].mean(axis=0), 4 * error + 0.015, f"the mean of {name}")
+            self.assert_near(mean, expected[is_known].mean(axis=0), 4 * error + 0.006, f"the mean of {name}")
 
     def test_a_lamp_behind_a_plate(self) -> None:
         """L t^2 (1 - F) / (1 + F) straight on, and L beside the plate."""

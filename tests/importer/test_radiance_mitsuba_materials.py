@@ -122,6 +122,10 @@ OLD = {
     "slab": Exhibit('<bsdf type="dielectric">' + rgb("specular_transmittance", TINT) + xml.word("int_ior", "water")
                     + number("ext_ior", 1) + "</bsdf>", lambda c: each(lambda t: model.slab(c, 1.333, t))(TINT),
                     (0.002, 0.012, 0.022), "cube"),
+    # Nearly smooth; what microfacets lose and bend is within what is allowed.
+    "rough slab": Exhibit('<bsdf type="roughdielectric">' + rgb("specular_transmittance", TINT) + GGX + number("alpha", 0.01)
+                          + number("int_ior", 1.5) + number("ext_ior", 1) + "</bsdf>",
+                          lambda c: each(lambda t: model.slab(c, 1.5, t))(TINT), (0.004, 0.015, 0.025), "cube"),
 }
 
 

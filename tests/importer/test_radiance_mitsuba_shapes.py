@@ -138,9 +138,10 @@ GROUP_XML = GROUP.format(moved=rays.steps_xml([("scale", (1, 0.5, 1)), ("rotate"
 class WhatIsSeenTest(RadianceTest):
     @classmethod
     def sources(cls) -> dict[str, Source]:
-        return {"3": Source(gallery.scene(SHAPES, "3.0.0"), FILES, keys=FIRST_HITS), "0.6": Source(gallery.scene(SHAPES, "0.6.0"), FILES, keys=FIRST_HITS),
-                "textures 3": Source(gallery.scene(TEXTURES_3, "3.0.0", also=GROUP_XML), FILES, keys=FIRST_HITS),
-                "textures 0.6": Source(gallery.scene(TEXTURES_OLD, "0.6.0"), FILES, keys=FIRST_HITS)}
+        scenes = {"3": gallery.scene(SHAPES, "3.0.0"), "0.6": gallery.scene(SHAPES, "0.6.0"),
+                  "textures 3": gallery.scene(TEXTURES_3, "3.0.0", also=GROUP_XML),
+                  "textures 0.6": gallery.scene(TEXTURES_OLD, "0.6.0")}
+        return {name: Source(text, FILES, keys=FIRST_HITS) for name, text in scenes.items()}
 
     def compare(self, picture: Picture, exhibits: list[Exhibit]) -> None:
         seen = gallery.view(exhibits)
