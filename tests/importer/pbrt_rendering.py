@@ -26,14 +26,15 @@ class View:
     height: int
     is_orthographic: bool = False
 
-    def point(self, x: float, y: float, distance: float) -> np.ndarray:
-        """Before the pixel position, which counts from the picture's upper left corner."""
+    def point(self, x: float | np.ndarray, y: float | np.ndarray, distance: float) -> np.ndarray:
+        """Before the pixel position, which counts from the picture's upper left corner; before each one of arrays."""
+        x, y = np.asarray(x, float)[..., None], np.asarray(y, float)[..., None]
         across = (2 * x / self.width - 1) * self.half_width * np.asarray(self.right, float)
         upwards = (1 - 2 * y / self.height) * self.half_height * np.asarray(self.up, float)
         step = 1.0 if self.is_orthographic else distance
         return np.asarray(self.eye, float) + step * (across + upwards) + distance * np.asarray(self.ahead, float)
 
-    def direction(self, x: float, y: float) -> np.ndarray:
+    def direction(self, x: float | np.ndarray, y: float | np.ndarray) -> np.ndarray:
         return self.point(x, y, 2.0) - self.point(x, y, 1.0)
 
     def pixel(self, point: Vector) -> np.ndarray:

@@ -90,20 +90,20 @@ def _shapes(version: int) -> dict[str, tuple[list[str], bool]]:
 class Sides(RadianceTest):
     EXTENSION = ".pbrt"
     KEYS = {"frames": 4}
+    ROWS = ((3, "one"), (4, "one"), (4, "both"))
 
     @classmethod
     def sources(cls) -> dict[str, Source]:
-        return {f"v{version}-{sides}": _cards(sides == "both", version) for version in (3, 4) for sides in ("one", "both")}
+        return {f"v{version}-{sides}": _cards(sides == "both", version) for version, sides in cls.ROWS}
 
     def test_a_lamp_shines_on_the_side_of_its_normal(self) -> None:
-        for version in (3, 4):
-            for sides in ("one", "both"):
-                radiance = self.pictures[f"v{version}-{sides}"].radiance
-                for cell, (name, (_, is_lit)) in enumerate(_shapes(version).items()):
-                    with self.subTest(name, version=version, sides=sides):
-                        # Two pixels of 1/4 below the middle, which each of the shapes covers.
-                        seen = radiance[2, cell * _CELL + 1:cell * _CELL + 3]
-                        self.assert_near(seen, np.array(_RADIANCE) * (is_lit or sides == "both"), 1e-5)
+        for version, sides in self.ROWS:
+            radiance = self.pictures[f"v{version}-{sides}"].radiance
+            for cell, (name, (_, is_lit)) in enumerate(_shapes(version).items()):
+                with self.subTest(name, version=version, sides=sides):
+                    # Two pixels of 1/4 below the middle, which each of the shapes covers.
+                    seen = radiance[2, cell * _CELL + 1:cell * _CELL + 3]
+                    self.assert_near(seen, np.array(_RADIANCE) * (is_lit or sides == "both"), 1e-5)
 
 
 _OBJECT = """ObjectBegin "pair"
