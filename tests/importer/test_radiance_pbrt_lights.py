@@ -68,6 +68,10 @@ def _cases() -> dict[str, tuple[Source, Irradiance]]:
         # ISO / 100 times the time that the shutter is open (PixelSensor's imaging ratio).
         "exposed": (floor_under(f'LightSource "point" "rgb I" [10 6 3] {_FROM}', 4, '"float iso" 50',
                             '"float shutteropen" 1 "float shutterclose" 4'), point(_PLACE, 1.5 * np.array(_INTENSITY))),
+        "exposed-panel": (floor_under(attributes(lamp, *reversed_panel), 4, '"float iso" 150'),
+                          polygon(_PANEL, 1.5 * np.array(_L))),
+        "exposed-sky": (floor_under('LightSource "infinite" "rgb L" [.5 1 2]', 4, '"float iso" 150'),
+                        evenly(1.5 * math.pi * np.array([0.5, 1, 2]))),
         "v3-point": (floor_under('LightSource "point" "rgb I" [5 3 1] "color scale" [2 2 3] "point from" [.4 -.3 1.5]', 3),
                      point(_PLACE, _INTENSITY)),
         "v3-distant": (floor_under('LightSource "distant" "color L" [3 2 1] "point from" [1 2 3] "point to" [0 0 0]', 3),

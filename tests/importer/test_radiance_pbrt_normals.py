@@ -53,6 +53,9 @@ _OF_VERTICES = {
     "other winding": ([quad(_CORNERS[::-1], _PLAIN)], (_X, _Y, _Z)),
     "stretched": (["Scale 1 2 1", quad(_CORNERS, _PLAIN)], unit((_X, _Y / 2, _Z))),
     "mirrored": (["Scale -1 1 1", quad(_CORNERS, _PLAIN)], (-_X, _Y, _Z)),
+    # z' = z + x/2, so that the inverse transpose takes half of z from x.
+    "sheared": (["ConcatTransform [1 0 .5 0  0 1 0 0  0 0 1 0  0 0 0 1]", quad(_CORNERS, _PLAIN)],
+                unit((_X - _Z / 2, _Y, _Z))),
     "turned": (["Rotate 90 0 0 1", quad(_CORNERS, _PLAIN)], (-_Y, _X, _Z)),
     "reversed": (["ReverseOrientation", quad(_CORNERS, _PLAIN)], (_X, _Y, _Z)),
 }

@@ -42,6 +42,8 @@ _CARDS: dict[str, tuple[list[str], bool]] = {
     "triangle, reversed twice": ([_REVERSED, _REVERSED, _TRIANGLE.format(_FORWARD, "")], True),
     "triangle, mirrored": (["Scale -1 1 1", _TRIANGLE.format(_FORWARD, "")], True),
     "triangle, mirrored and reversed": (["Scale -1 1 1", _REVERSED, _TRIANGLE.format(_FORWARD, "")], False),
+    "triangle, sheared and mirrored": (["Scale -1 1 1\nConcatTransform [1 0 0 0  .1 1 0 0  0 0 1 0  0 0 0 1]",
+                                        _TRIANGLE.format(_FORWARD, "")], True),
     "triangle, mirrored along z": (["Scale 1 1 -1", _TRIANGLE.format(_FORWARD, "")], False),
     "triangle, turned over": (["Rotate 180 0 1 0", _TRIANGLE.format(_FORWARD, "")], False),
     "normals away": ([_TRIANGLE.format(_FORWARD, _AWAY)], False),
