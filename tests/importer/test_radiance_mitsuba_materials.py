@@ -42,8 +42,13 @@ def each(function: Callable[[float], float]) -> Callable[[np.ndarray], np.ndarra
 
 MATT = twosided("diffuse", rgb("reflectance", RHO))
 OTHER = twosided("diffuse", rgb("reflectance", (0.1, 0.8, 0.5)))
+GREY = twosided("diffuse", rgb("reflectance", 0.4))
 METAL = rgb("eta", ETA) + rgb("k", K)
 GGX, BECKMANN = xml.word("distribution", "ggx"), xml.word("distribution", "beckmann")
+
+
+def grey_mirror(share: float) -> str:
+    return f'<bsdf type="conductor">{xml.word("material", "none")}{rgb("specular_reflectance", share)}</bsdf>'
 
 
 def metal(c: float) -> np.ndarray:
@@ -113,8 +118,12 @@ OLD = {
     "tinted metal": Exhibit(twosided("conductor", METAL + number("ext_eta", 1.0) + rgb("specular_reflectance", TINT)),
                             lambda c: metal(c) * TINT, (0.002, 0.006, 0.08)),
     "one side": Exhibit(f'<bsdf type="diffuse">{rgb("diffuse_reflectance", RHO)}</bsdf>', lambda c: RHO),
-    "mixture": Exhibit(f'<bsdf type="mixturebsdf"><string name="weights" value="0.3, 0.7"/>{MATT}{OTHER}</bsdf>',
-                       lambda c: 0.3 * RHO + 0.7 * np.array((0.1, 0.8, 0.5))),
+    "mixture": Exhibit(f'<bsdf type="mixturebsdf">{xml.word("weights", "0.2, 0.5, 0.3")}{MATT}{OTHER}{GREY}</bsdf>',
+                       lambda c: 0.2 * RHO + 0.5 * np.array((0.1, 0.8, 0.5)) + 0.3 * 0.4),
+    "blended mirrors": Exhibit(f'<bsdf type="blendbsdf">{number("weight", 0.25)}{grey_mirror(0.6)}{grey_mirror(0.2)}</bsdf>',
+                               lambda c: 0.75 * 0.6 + 0.25 * 0.2),
+    "blend with nothing": Exhibit(f'<bsdf type="blendbsdf">{number("weight", 0.25)}{MATT}<bsdf type="null"/></bsdf>',
+                                  lambda c: 0.75 * RHO + 0.25),
     "bump map": Exhibit(f'<bsdf type="bumpmap"><texture type="checkerboard"/>{MATT}</bsdf>', lambda c: RHO),
     "thin glass": Exhibit('<bsdf type="thindielectric">' + rgb("specular_transmittance", TINT) + number("int_ior", 1.5)
                           + number("ext_ior", 1) + "</bsdf>", lambda c: each(lambda t: model.thin(c, 1.5, t))(TINT),
