@@ -26,8 +26,10 @@ def _plate(eta: float) -> Callable[[float], float]:
     return through
 
 
-# Of a surface before a lamp of radiance 1. Schlick's curve is off by 0.02 at 60 degrees, of which a plate has two faces.
-_BEHIND = {0: 2e-3, 60: 0.05}
+# Of a surface before a lamp of radiance 1. Schlick's curve is off by 0.02 at 60 degrees, of which a plate has two faces, and
+# by 0.06 where it starts at the reflectance of both.
+_BEHIND, _BEHIND_BOTH = {0: 2e-3, 60: 0.04}, {0: 2e-3, 60: 0.06}
+_EXACT = {0: 1e-3, 60: 1e-3}
 _PLATES = {
     "glass": Tile('Material "dielectric"', _plate(1.5), _BEHIND),
     "glass of 2": Tile('Material "dielectric" "float eta" 2', _plate(2.0), _BEHIND),
@@ -36,19 +38,41 @@ _PLATES = {
     "nothing": Tile('Material "interface"', lambda angle: 1.0, _BEHIND),
 }
 _THIN = {
-    "thin": Tile('Material "thindielectric"', _plate(1.5), _BEHIND),
-    "thin of 2": Tile('Material "thindielectric" "float eta" 2', _plate(2.0), _BEHIND),
+    "thin": Tile('Material "thindielectric"', _plate(1.5), _BEHIND_BOTH),
+    "thin of 2": Tile('Material "thindielectric" "float eta" 2', _plate(2.0), _BEHIND_BOTH),
     "nothing": Tile('Material "interface"', lambda angle: 1.0, _BEHIND),
     "matt": Tile('Material "diffuse"', lambda angle: 0.0, _BEHIND),
+    # An amount of 0.2 is the share of the second.
+    "mixture": Tile('MakeNamedMaterial "black" "string type" "diffuse" "rgb reflectance" [0 0 0]\n'
+                    'MakeNamedMaterial "nothing" "string type" "interface"\n'
+                    'Material "mix" "string materials" ["black" "nothing"] "float amount" .2', lambda angle: 0.2, _EXACT),
 }
+_KT = np.array([0.5, 0.7, 0.9])
+
+
+def _tinted(angle: float) -> np.ndarray:
+    """Each face takes a factor of Kt from what passes it (FresnelSpecular)."""
+    r = float(formulas.dielectric(cosine_of(angle), 1.5))
+    return (1 - r) ** 2 * _KT ** 2 / (1 - r ** 2)
+
+
 _OF_VERSION_3 = {"glass": Tile('Material "glass" "float index" 1.7', _plate(1.7), _BEHIND),
+                 "tinted": Tile(f'Material "glass" "rgb Kt" [{numbers(_KT)}]', _tinted, _BEHIND),
                  "nothing": Tile('Material "none"', lambda angle: 1.0, _BEHIND)}
+_UBER = 'Material "uber" "rgb Kd" [0 0 0] "rgb Ks" [0 0 0] '
+_THIN_OF_VERSION_3 = {
+    "opacity": Tile(_UBER + '"rgb opacity" [.25 .25 .25]', lambda angle: 0.75, _EXACT),
+    # The other way round than in version 4.
+    "mixture": Tile('MakeNamedMaterial "black" "string type" "matte" "rgb Kd" [0 0 0]\n'
+                    'MakeNamedMaterial "nothing" "string type" "none"\nMaterial "mix" "string namedmaterial1" "black" '
+                    '"string namedmaterial2" "nothing" "rgb amount" [.2 .2 .2]', lambda angle: 0.8, _EXACT),
+}
 
 
 class Glass(TilesTest):
     """Plates before a lamp, and thin walls."""
 
-    KEYS = {"frames": 256}
+    KEYS = {"frames": 512, "random": "sobol", "replicates": 8}
 
     @classmethod
     def sources(cls) -> dict[str, Source]:
@@ -59,7 +83,7 @@ class Glass(TilesTest):
         found = {}
         for angle in (0, 60):
             for name, tiles, shape, version in (("plates", _PLATES, box, 4), ("thin", _THIN, "", 4),
-                                                ("v3", _OF_VERSION_3, box, 3)):
+                                                ("v3", _OF_VERSION_3, box, 3), ("v3-thin", _THIN_OF_VERSION_3, "", 3)):
                 kind = "diffuse" if version == 4 else "matte"
                 role = "reflectance" if version == 4 else "Kd"
                 behind = quad([(-99, -99, -3), (99, -99, -3), (99, 99, -3), (-99, 99, -3)])
@@ -75,6 +99,7 @@ class Glass(TilesTest):
     def test_lamp_behind_thin_walls(self) -> None:
         for angle in (0, 60):
             self.check(self.pictures[f"thin-{angle}"], _THIN, angle)
+            self.check(self.pictures[f"v3-thin-{angle}"], _THIN_OF_VERSION_3, angle)
 
 
 class Balls(RadianceTest):
