@@ -19,11 +19,13 @@ CHORDS = 1.5e-3  # relative: round lamps are triangles, whose area is smaller by
 Irradiance = Callable[[np.ndarray], np.ndarray]  # of points on the floor, (..., 2); (..., 3)
 
 
-def floor_under(world: str, version: int = 4, more_film: str = "", more_camera: str = "", bounces: int = 1) -> Source:
+def floor_under(world: str, version: int = 4, more_film: str = "", more_camera: str = "", bounces: int = 1,
+                is_mirrored: bool = False) -> Source:
+    """`is_mirrored`: as pbrt has it without Scale -1 1 1, so that x runs to the left."""
     kind, role = ("diffuse", "reflectance") if version == 4 else ("matte", "Kd")
     floor = f'Material "{kind}" "rgb {role}" [{numbers(RHO)}]\n' + quad(((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
     black = f'Material "{kind}" "rgb {role}" [0 0 0]\n'
-    before = ("Scale -1 1 1\nLookAt 0 0 .1  0 0 0  0 1 0\n"
+    before = (("" if is_mirrored else "Scale -1 1 1\n") + "LookAt 0 0 .1  0 0 0  0 1 0\n"
               f'Camera "orthographic" {more_camera}\n' + film(SIZE, SIZE, version, more_film))
     return Source(scene(before, floor + black + world, bounces, version))
 

@@ -88,19 +88,47 @@ def _cases() -> dict[str, tuple[Source, Irradiance]]:
     }
 
 
+def _shadow(points: np.ndarray) -> np.ndarray:
+    """Light towards +x and down, at 45 degrees, past a card from x = -1 to -1/2 that is 1/2 above the floor."""
+    is_lit = (points[..., 0] < -0.5) | (points[..., 0] > 0)
+    return is_lit[..., None] * np.array([3.0, 2, 1]) / math.sqrt(2)
+
+
+def _mirrored_cases() -> dict[str, tuple[Source, Irradiance]]:
+    """Under a camera that mirrors, for which the whole world is mirrored in the .glb."""
+    card = quad([(-1, -9, .5), (-.5, -9, .5), (-.5, 9, .5), (-1, 9, .5)])
+    distant = 'LightSource "distant" "rgb L" [3 2 1] "point3 from" [-1 0 1] "point3 to" [0 0 0]\n'
+    lamp = _LAMP.format(numbers(_L), "")
+    worlds: dict[str, tuple[str, Irradiance]] = {
+        "point": (f'LightSource "point" "rgb I" [10 6 3] {_FROM}', point(_PLACE, _INTENSITY)),
+        "distant": (distant + card, _shadow),
+        "panel": (attributes("ReverseOrientation", lamp, quad(_PANEL)), polygon(_PANEL, _L)),
+        "panel-from-behind": (attributes(lamp, quad(_PANEL)), evenly((0, 0, 0))),
+        "ball": (attributes(lamp, _BALL), ball((0.3, 0.2, 1.5), 0.4, _L)),
+    }
+    return {name: (floor_under(world, is_mirrored=True), irradiance) for name, (world, irradiance) in worlds.items()}
+
+
 class Lights(RadianceTest):
     EXTENSION = ".pbrt"
     KEYS = {"frames": 64}
 
     @classmethod
     def sources(cls) -> dict[str, Source]:
-        return {name: source for name, (source, _) in _cases().items()}
+        return {**{name: source for name, (source, _) in _cases().items()},
+                **{f"mirrored-{name}": source for name, (source, _) in _mirrored_cases().items()}}
 
     def test_a_floor_is_as_bright_as_its_irradiance_makes_it(self) -> None:
         for name, (_, irradiance) in _cases().items():
             with self.subTest(name):
                 expected = seen(irradiance)
                 self.assert_radiance(self.pictures[name], expected, CHORDS * expected + 1e-6, name)
+
+    def test_a_mirrored_world(self) -> None:
+        for name, (_, irradiance) in _mirrored_cases().items():
+            with self.subTest(name):
+                expected = seen(irradiance)[:, ::-1]
+                self.assert_radiance(self.pictures[f"mirrored-{name}"], expected, CHORDS * expected + 1e-6, name)
 
 
 if __name__ == "__main__":
