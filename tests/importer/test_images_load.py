@@ -143,6 +143,17 @@ class LoadTest(unittest.TestCase):
         np.testing.assert_allclose(radiance, np.full((1, 1, 3), MIDDLE), rtol=1e-6)
         self.assertEqual(load_scaled(self.folder / "a.png")[1], 1)
 
+    def test_large_images_take_little_memory(self) -> None:
+        """Linear bytes are exact in single precision, and a sky of more texels than the program reads is not unpacked."""
+        grey = np.arange(256, dtype=np.uint8)
+        large = self.load(encoded(Pillow.fromarray(np.tile(grey, (2100, 8))), "PNG"), is_linear=True)
+        self.assertEqual((large.pixels.dtype, large.pixels.shape), (np.float32, (2100, 2048, 3)))
+        np.testing.assert_array_equal(np.rint(large.pixels[7, :256, 1] * np.float32(255)), grey)
+        path = self.folder / "sky.png"
+        path.write_bytes(encoded(Pillow.new("L", (8192, 4097)), "PNG"))
+        with self.assertRaisesRegex(ImportProblem, "sky.png: the image has 8192 x 4097 pixels; it may have .* 32 Mi in all"):
+            load_radiance(path)
+
     def test_numbers_that_are_none(self) -> None:
         path = self.folder / "a.exr"
         for value in (np.nan, np.inf):
