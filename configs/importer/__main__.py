@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -11,11 +12,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
 
+import numpy as np
+
 from importer.output.config import config_of, write_config
 from importer.output.glb import Totals, write_glb
 from importer.output.inputs import Inputs, format_of
 from importer.output.sky import write_sky
-from importer.output.terminal import progress, report
+from importer.output.terminal import one_line, progress, report
 from importer.output.world import world_of
 from importer.problems import ImportProblem, Notes
 from importer.scene import Scene
@@ -76,8 +79,12 @@ class Outputs:
         """The config comes last, so that whatever it names is there."""
         files = [file for file in (self.sky, self.glb, self.config) if (folder / file.name).exists()]
         self.check(*files)
-        for file in files:
-            os.replace(folder / file.name, file)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+        try:  # all of them, once it has begun
+            for file in files:
+                os.replace(folder / file.name, file)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         return files
 
     @contextmanager
@@ -101,8 +108,18 @@ def _write(scene: Scene, outputs: Outputs, notes: Notes, source: dict) -> tuple[
         return totals, config, outputs.move_from(folder)
 
 
+def _check_names(*files: Path) -> None:
+    """The .glb and the config name the files, and both are text in UTF-8."""
+    for file in files:
+        try:
+            file.name.encode()
+        except UnicodeEncodeError as error:
+            raise ImportProblem(f"{file}: its name is no UTF-8; a name that is would be right") from error
+
+
 def run(options: argparse.Namespace) -> None:
     start = time.monotonic()
+    _check_names(options.scene, options.out)
     notes, outputs = Notes(options.lenient), Outputs(options.out, options.force)
     outputs.check(outputs.glb, outputs.config)
     format_name = format_of(options.scene)
@@ -111,27 +128,34 @@ def run(options: argparse.Namespace) -> None:
         source = inputs.describe(format_name, scene.source_version)
         totals, config, files = _write(scene, outputs, notes, source)
     print(report(totals, config, source, notes, time.monotonic() - start))
-    print("\nwritten     " + ", ".join(map(str, files)))
+    print("\nwritten     " + one_line(", ".join(map(str, files))))
 
 
 def main(arguments: list[str] | None = None) -> int:
     options = _options(arguments)
     try:
-        run(options)
+        with np.errstate(all="ignore"):  # what comes of numbers that are too large is checked where it is written
+            run(options)
     except ImportProblem as problem:
-        print(f"import: {' '.join(str(problem).split())}", file=sys.stderr)
+        print(f"import: {one_line(str(problem))}", file=sys.stderr)
         return 1
     except BrokenPipeError:  # who reads the report has seen enough, and the files are there
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        print(f"import: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
+        print(one_line(f"import: {error.filename or options.out}: {error.strerror or error}"), file=sys.stderr)
         return 1
     except MemoryError:
-        print(f"import: {options.scene}: it needs more memory than there is; a smaller scene would be right",
+        print(one_line(f"import: {options.scene}: it needs more memory than there is; a smaller scene would be right"),
               file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("import: stopped", file=sys.stderr)
+        return 130  # of a program that SIGINT ends
     return 0
 
 
 if __name__ == "__main__":
+    if sys.stdout is not None:  # which may be closed
+        sys.stdout.reconfigure(errors="backslashreplace")  # of terminals that do not know all letters
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # which leaves no more behind than SIGINT
     sys.exit(main())

@@ -37,7 +37,7 @@ class Image:
     """Pixels and, where a file can go into the .glb as it is, that file's bytes."""
 
     name: str
-    pixels: np.ndarray  # (height, width, 3 or 4) uint8 in sRGB, or float64 in linear colours, all in [0, 1]
+    pixels: np.ndarray  # (height, width, 3 or 4) uint8 in sRGB, or floats in linear colours, all in [0, 1]
     encoded: bytes | None = None  # the PNG or JPEG that `pixels` were read from, unchanged
     mime_type: str = "image/png"  # of `encoded`
 

@@ -15,14 +15,16 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def _filtered(rows: np.ndarray, step: int, kind: int) -> bytes:
-    """PNG's filters 0 to 2: bytes as they are, less the pixel before them, less the pixel above."""
-    before = np.zeros_like(rows)
+def _filtered(rows: np.ndarray, step: int, kind: int) -> np.ndarray:
+    """PNG's filters 0 to 2: bytes as they are, less the pixel before them, less the pixel above. In one array, as an image
+    may have hundreds of megabytes."""
+    filtered = np.empty((rows.shape[0], rows.shape[1] + 1), np.uint8)
+    filtered[:, 0], filtered[:, 1:] = kind, rows
     if kind == 1:
-        before[:, step:] = rows[:, :-step]
+        filtered[:, 1 + step:] -= rows[:, :-step]
     elif kind == 2:
-        before[1:] = rows[:-1]
-    return np.hstack([np.full((len(rows), 1), kind, np.uint8), rows - before]).tobytes()
+        filtered[1:, 1:] -= rows[:-1]
+    return filtered
 
 
 def png_bytes(pixels: np.ndarray, palette: np.ndarray | None = None, filters: tuple[int, ...] = (0, 1, 2),
@@ -33,8 +35,8 @@ def png_bytes(pixels: np.ndarray, palette: np.ndarray | None = None, filters: tu
     channels = pixels.shape[2] if pixels.ndim == 3 else 1
     depth = 16 if pixels.dtype == np.uint16 else 8
     kind = PALETTE if palette is not None else _KINDS[channels]
-    values = pixels.astype(">u2" if depth == 16 else np.uint8)
-    rows = np.frombuffer(values.tobytes(), np.uint8).reshape(height, width * channels * depth // 8)
+    values = np.ascontiguousarray(pixels, ">u2" if depth == 16 else np.uint8)
+    rows = values.reshape(height, width * channels).view(np.uint8)
     packed = min((zlib.compress(_filtered(rows, channels * depth // 8, f), level) for f in filters), key=len)
     colours = _chunk(b"PLTE", palette.astype(np.uint8).tobytes()) if palette is not None else b""
     header = struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0)

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Feeds the config reader, the glTF loader, the decoders of images and the reader of Radiance's pictures with bytes that libFuzzer makes up.
+"""Feeds the config reader, the glTF loader, the decoders of images and the reader of Radiance's pictures with bytes that
+libFuzzer makes up, and the importer with scenes that import_fuzz.py does.
 
-    ./dev fuzz [SECONDS] [--only config|gltf|image|hdr] [--corpus FOLDER] [--seed N]
+    ./dev fuzz [SECONDS] [--only config|gltf|image|hdr|import] [--corpus FOLDER] [--seed N]
 
 SECONDS for each of them (60). They start from the shipped configs and scenes and from tests/fuzz/corpus. Exit code 1
-where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all, or answers with anything but a result or a
-clear error; the input that made it do so is kept in build/fuzz/findings. --corpus keeps what was learned for another time.
+where one crashes, hangs, leaks, takes more than 512 MB at once or 1 GB in all (the importer: 1 GB, or 10 s), or answers
+with anything but a result or a clear error; the input that made it do so is kept in build/fuzz/findings. --corpus keeps
+what was learned for another time.
 """
 
 from __future__ import annotations
@@ -135,16 +137,24 @@ def fuzz(target: str, options: argparse.Namespace, folder: Path) -> bool:
     return process.returncode == 0
 
 
+def fuzz_import(options: argparse.Namespace) -> bool:
+    """Needs no build: the importer is Python, and so is what makes up its scenes."""
+    corpus = ["--corpus", Path(options.corpus, "import")] if options.corpus else []
+    command = [sys.executable, ROOT / "tests/fuzz/import_fuzz.py", str(options.seconds), "--seed", str(options.seed),
+               "--findings", FINDINGS / "import", *corpus]
+    return subprocess.run(command).returncode == 0
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("seconds", metavar="SECONDS", nargs="?", type=int, default=60)
-    parser.add_argument("--only", choices=sorted(SEEDS))
+    parser.add_argument("--only", choices=[*sorted(SEEDS), "import"])
     parser.add_argument("--corpus", help="folder that inputs are kept in and read from")
-    parser.add_argument("--seed", type=int, default=0, help="of libFuzzer; 0: another one each time")
+    parser.add_argument("--seed", type=int, default=0, help="of the random numbers; 0: another one each time")
     options = parser.parse_args()
-    targets = [options.only] if options.only else sorted(SEEDS)
+    targets = [options.only] if options.only else [*sorted(SEEDS), "import"]
     with tempfile.TemporaryDirectory() as folder:
-        passed = [fuzz(target, options, Path(folder)) for target in targets]
+        passed = [fuzz_import(options) if target == "import" else fuzz(target, options, Path(folder)) for target in targets]
     return 0 if all(passed) else 1
 
 

@@ -13,6 +13,7 @@ from importer.scene import WHITE, Colour, Image, Rgb, Texture, Wrap
 MAX_SIDE = 4096  # of images that are made here
 _MAX_FLOATS = 1 << 22  # texels that are kept as floats
 _BAND = 256
+_LONGEST_NAME = 64  # joined of joined ones it would double at each step
 _SAME = 1e-6
 
 
@@ -83,7 +84,8 @@ def combined(first: Colour, second: Colour, how: Callable[[np.ndarray, np.ndarra
     textures = [t for t in (first, second) if isinstance(t, Texture)]
     base = _base(textures)
     size = _size(textures, base)
-    image = Image(name or "_".join(t.image.name for t in textures), _empty(size[1], size[0], 3))
+    joined = "_".join(dict.fromkeys(t.image.name for t in textures))[:_LONGEST_NAME]
+    image = Image(name or joined, _empty(size[1], size[0], 3))
     for rows in _bands(size[1]):
         sources = [_sampled(c, base, size, rows) if isinstance(c, Texture) else np.array(c, float) for c in (first, second)]
         _store(image, rows, np.asarray(how(*sources), float))

@@ -23,6 +23,7 @@ from importer.scene import Image
 
 _FLOATS = {".exr": read_exr, ".hdr": read_hdr, ".pic": read_hdr, ".rgbe": read_hdr, ".pfm": read_pfm}
 _FORMATS = ("PNG", "JPEG", "TGA", "BMP")
+_MANY = 1 << 22  # texels
 _PILLOW_ERRORS = (OSError, SyntaxError, ValueError, LookupError, TypeError, OverflowError, struct.error, EOFError,
                   NotImplementedError, MemoryError)
 
@@ -37,7 +38,7 @@ def load_image(path: Path, is_linear: bool | None = None) -> Image:
     picture = _opened(path, data)
     pixels = _pixels(path, picture, data)
     if is_linear:
-        return Image(path.stem, pixels / 255 if pixels.dtype == np.uint8 else pixels)
+        return Image(path.stem, _as_numbers(pixels) if pixels.dtype == np.uint8 else pixels)
     kept = data if picture.format in ("PNG", "JPEG") and picture.mode != "CMYK" else None
     if pixels.dtype != np.uint8:
         pixels[..., :3] = srgb.to_linear(pixels[..., :3])
@@ -57,7 +58,10 @@ def load_radiance(path: Path) -> np.ndarray:
     """(height, width, 3) float32, linear, not below 0: the filters of those who make such files leave values there."""
     if path.suffix.lower() in _FLOATS:
         return np.maximum(_finite(path), 0)
-    return srgb.linear(load_image(path)).astype(np.float32)
+    image = load_image(path)
+    height, width = image.pixels.shape[:2]
+    check_size(path, width, height)  # before its bytes become floats
+    return srgb.linear(image).astype(np.float32)
 
 
 def _finite(path: Path) -> np.ndarray:
@@ -82,6 +86,11 @@ def _opened(path: Path, data: bytes) -> Pillow.Image:
             raise ImportProblem(f"{path}: the image is none of {known}, EXR, HDR and PFM, or is damaged") from error
     check_size(path, *picture.size, MAX_PIXELS)
     return picture
+
+
+def _as_numbers(pixels: np.ndarray) -> np.ndarray:
+    """Of bytes; of many in single precision, or 8192 x 8192 texels would take 1.6 GB, and as much again once changed."""
+    return pixels / (np.float32(255) if pixels[..., 0].size > _MANY else np.float64(255))
 
 
 def _pixels(path: Path, picture: Pillow.Image, data: bytes) -> np.ndarray:

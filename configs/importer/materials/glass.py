@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from importer.materials import fresnel, limits, parameters
 from importer.materials.roughness import mitsuba_roughness
 from importer.materials.simple import strength_and_colour
 from importer.problems import Notes
-from importer.scene import WHITE, Colour, Material, Number
+from importer.scene import WHITE, Colour, Material, Number, Rgb
 
 
 @dataclass(eq=False)
@@ -22,6 +23,22 @@ class InwardGlass(Material):
 def is_inward(material: Material) -> bool:
     """Whether the mesh of that material must be turned inside out."""
     return isinstance(material, InwardGlass)
+
+
+def can_absorb(material: Material) -> bool:
+    """Whether it bounds a body that all light passes, so that what the body takes up can be said of the material."""
+    is_clear = isinstance(material.transmission, float) and material.transmission == 1.0 and material.opacity == 1.0
+    return is_clear and not material.is_thin and not is_inward(material)
+
+
+def absorbing(material: Material, absorption: Rgb, where: str) -> Material:
+    """Of the light in such a body exp(-absorption * length) is left (Beer and Lambert)."""
+    most = max(absorption)
+    limits.checked_number(most, "what a medium absorbs on a unit of length", where, least=0.0, most=1e12)
+    if most < 1e-12:
+        return material
+    red, green, blue = (math.exp(-share / most) for share in absorption)
+    return replace(material, attenuation_colour=(red, green, blue), attenuation_distance=1.0 / most)
 
 
 def _curve_note(exact: np.ndarray, cosines: np.ndarray, f0: float, what: str, notes: Notes, where: str) -> None:

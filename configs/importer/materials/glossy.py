@@ -15,11 +15,12 @@ from importer.scene import WHITE, Colour, Material, Number, Texture
 
 
 def phong(name: str, diffuse: Colour, specular: Colour, exponent: float, notes: Notes, where: str) -> Material:
-    """Mitsuba's phong: Lambert's lobe and Phong's about the mirrored direction, whose reflectance hardly depends on the
-    angle: a lobe of F0 and F90 `specular`. A lobe cos^n about the mirrored direction is as wide as one of cos^4n about the
-    half vector (Ashikhmin and Shirley 2000), and that as GGX's by Walter et al. 2007."""
+    """Mitsuba's phong: Lambert's lobe and Phong's about the mirrored direction, as one of F0 and F90 `specular`, which is
+    right straight on. Phong's reflectance then falls with the cosine of the view (Phong::eval has no cosine in its
+    denominator), for which glTF has no means. A lobe cos^n about the mirrored direction is as wide as one of cos^4n about
+    the half vector (Ashikhmin and Shirley 2000), and that as GGX's by Walter et al. 2007."""
     limits.checked_number(float(exponent), "Phong's exponent", where)
-    notes.approximated("Phong's lobe as GGX's about as wide", where)
+    notes.approximated("Phong's lobe as GGX's about as wide, which does not grow darker towards grazing angles", where)
     diffuse = limits.reflectance(diffuse, "the diffuse reflectance", notes, where)
     specular = limits.reflectance(specular, "the specular reflectance", notes, where)
     if parameters.is_constant(specular, 0.0):

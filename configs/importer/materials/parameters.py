@@ -48,7 +48,8 @@ def _statistics(image: Image) -> Statistics:
                           counts @ values / counts[0].sum(),
                           all(np.array_equal(pixels[:, :, 0], pixels[:, :, k]) for k in (1, 2)))
     flat = pixels.reshape(-1, 3)
-    difference = max(float(np.abs(flat[:, 0] - flat[:, k]).max()) for k in (1, 2))
+    strips = (flat[start:start + _STRIP] for start in range(0, len(flat), _STRIP))
+    difference = max(float(np.abs(strip[:, :1] - strip[:, 1:]).max()) for strip in strips)
     return Statistics(flat.min(axis=0), flat.max(axis=0), flat.mean(axis=0, dtype=np.float64), difference < 1e-6)
 
 
@@ -74,7 +75,8 @@ def _texture_of(texture: Texture, function: Map) -> Texture:
     strips = [replace(texture, image=Image("", pixels[row:row + rows])) for row in range(0, pixels.shape[0], rows)]
     scale = max(1.0, *(float(function(texels(strip)).max()) for strip in strips))
     is_kept_in_bytes = pixels.dtype == np.uint8 and pixels[..., 0].size > _LARGE
-    made = np.empty((*pixels.shape[:2], 3), np.uint8 if is_kept_in_bytes else np.float64)
+    of_floats = np.float64 if pixels.dtype == np.uint8 else pixels.dtype
+    made = np.empty((*pixels.shape[:2], 3), np.uint8 if is_kept_in_bytes else of_floats)
     for i, strip in enumerate(strips):
         values = np.clip(function(texels(strip)) / scale, 0.0, 1.0)
         made[i * rows:(i + 1) * rows] = np.rint(srgb.from_linear(values) * 255.0) if is_kept_in_bytes else values

@@ -14,7 +14,7 @@ from importer.materials import fresnel, limits, lobes, parameters
 from importer.materials.roughness import mitsuba_roughness
 from importer.materials.simple import strength_and_colour
 from importer.problems import ImportProblem, Notes
-from importer.scene import WHITE, Colour, Material, Number
+from importer.scene import BLACK, WHITE, Colour, Material, Number
 
 Map = Callable[[np.ndarray], np.ndarray]
 
@@ -33,15 +33,22 @@ class Source:
 def _checked_index(eta: float, where: str) -> float:
     limits.checked_number(float(eta), "the index of a dielectric surface over that of what is above it", where,
                           most=limits.MOST_INDEX)
-    if eta <= 1.0:
-        raise ImportProblem(f"{where}: the index of a dielectric surface is {eta:g} of that above it; above 1 would be "
+    if eta < 1.0:
+        raise ImportProblem(f"{where}: the index of a dielectric surface is {eta:g} of that above it; 1 or more would be "
                             "right")
     return float(eta)
 
 
+def _mean_alpha(alpha: Number, eta: float, notes: Notes, where: str) -> float:
+    """Of the surface on top, which is none where the index does not change (DielectricBxDF takes it as smooth)."""
+    mean = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
+    return mean if eta > 1.0 else 0.0
+
+
 def dielectric_over(name: str, reflectance: Colour, f0: float, specular: Colour, alpha: Number, source: Source,
                     notes: Notes, where: str) -> Material:
-    """The glTF dielectric for a source; `specular` is a factor of its lobe."""
+    """The glTF dielectric for a source; `specular` is a factor of its lobe. Without a step of the index there is none."""
+    specular = BLACK if f0 == 0.0 else specular
     strength, colour = (1.0, WHITE) if parameters.is_constant(specular, 1.0) else strength_and_colour(specular, notes, where)
     s = parameters.mean_number(strength)
     share = lobes.below_in_all(f0 * s, s)
@@ -92,7 +99,7 @@ def plastic(name: str, diffuse: Colour, ior: float, alpha: Number, specular: Col
     eta = _checked_index(ior, where)
     diffuse = limits.reflectance(diffuse, "the diffuse reflectance", notes, where)
     specular = limits.reflectance(specular, "the specular reflectance", notes, where)
-    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
+    mean_alpha = _mean_alpha(alpha, eta, notes, where)
     in_all = lobes.passed_in_all(mean_alpha, eta, True)
     inside = lobes.dielectric_in_all(mean_alpha, 1.0 / eta, True) if version >= 3 else 1.0 - in_all / eta ** 2
 
@@ -113,7 +120,7 @@ def coated_diffuse(name: str, reflectance: Colour, eta: float, alpha: Number, th
     eta = _checked_index(eta, where)
     reflectance = limits.reflectance(reflectance, "the reflectance", notes, where)
     thickness = float(limits.checked_number(thickness, "the thickness of a coat", where))
-    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
+    mean_alpha = _mean_alpha(alpha, eta, notes, where)
     if parameters.greatest(albedo) > 0.0:
         notes.approximated("a coat that scatters as one that only absorbs", where)
     out, back = _coat_from_below(eta, mean_alpha, thickness)
@@ -149,7 +156,7 @@ def lambert_and_gloss(name: str, diffuse: Colour, specular: Colour, ior: float, 
     eta = _checked_index(ior, where)
     diffuse = limits.reflectance(diffuse, "Kd", notes, where)
     specular = limits.reflectance(specular, "Ks", notes, where)
-    mean_alpha = round(parameters.mean_number(limits.alpha(alpha, notes, where)), 4)
+    mean_alpha = _mean_alpha(alpha, eta, notes, where)
     if parameters.is_constant(specular, 0.0):
         return Material(name, base_colour=diffuse)
     source = Source(lambda rho: np.asarray(rho, dtype=float), lambda cosines, rho: np.full_like(cosines, rho),

@@ -29,15 +29,15 @@ def _alpha_of_v3(roughness: np.ndarray) -> np.ndarray:
 
 
 def pbrt_alpha(roughness: Number, remap: bool, version: int) -> Number:
-    """pbrt's alpha. A roughness of 0 stays smooth, as v3's glass has it (GlassMaterial); of v3's other materials the
-    polynomial makes 0.047 of it."""
+    """pbrt's alpha. Of a roughness of 0 v3's polynomial makes 0.047, in all materials but glass that is smooth both ways
+    (GlassMaterial)."""
     if version not in (3, 4):
         raise ValueError(f"pbrt has versions 3 and 4, not {version}")
     if not remap:
         return roughness
     if version == 4:
         return parameters.map_number(roughness, _alpha_of_v4, "v4")
-    return parameters.map_number(roughness, lambda r: np.where(r > 0.0, _alpha_of_v3(r), 0.0), "v3")
+    return parameters.map_number(roughness, _alpha_of_v3, "v3")
 
 
 def isotropic_alpha(alpha_u: Number, alpha_v: Number, notes: Notes, where: str) -> Number:

@@ -3,7 +3,7 @@
 How fine: the corners lie on the surface, `SEGMENTS` = 128 of them around. A chord of 1/128 of a circle is at most
 3.0e-4 of the radius from its arc, which is 0.11 pixels where a ball is as high as a picture of 720 lines. Normals are
 the surface's own, so shading has no facets. Areas are too small by 5.0e-4 (sphere), 4.0e-4 (disk) and 1.0e-4
-(cylinder), and with them what a lamp of this shape sends out (tests/importer/test_meshes_primitives.py). A larger radius
+(cylinder), and with them what a lamp of this shape sends out (tests/importer/meshes/test_primitives.py). A larger radius
 would make up for that, but would put corners off the surface, and shapes that touch would overlap.
 """
 

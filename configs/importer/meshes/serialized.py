@@ -6,6 +6,7 @@ whose version 3 has no names and a dictionary of 32 bits.
 
 from __future__ import annotations
 
+import mmap
 import struct
 import zlib
 from pathlib import Path
@@ -13,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from importer.meshes.assemble import check_indices, finished
-from importer.meshes.files import MAX_BYTES, read_bytes
+from importer.meshes.files import MAX_BYTES, mapped_bytes
 from importer.meshes.orient import with_face_normals
 from importer.problems import ImportProblem
 from importer.scene import Mesh
@@ -21,12 +22,14 @@ from importer.scene import Mesh
 _MAGIC = 0x041C
 _NORMALS, _UVS, _COLOURS, _FACE_NORMALS, _DOUBLE = 0x0001, 0x0002, 0x0008, 0x0010, 0x2000
 _LONGEST_NAME = 4096
-_PIECE = 1 << 16  # inflated at least at a time, for each call copies what is left
+_PIECE = 1 << 16  # inflated at least at a time, for each call copies what is left of its input
+_PACKED_PIECE = 1 << 18  # which is that much of the file at most: behind a mesh there may be hundreds of others
+Bytes = bytes | mmap.mmap
 
 
 def read_serialized(path: Path, index: int) -> Mesh:
     """The mesh of this number, from 0 on. Where its flags ask for face normals, each triangle has its own in `normals`."""
-    data = read_bytes(path)
+    data = mapped_bytes(path)
     start, version = _start(path, data, index)
     stream = _Stream(path, memoryview(data)[start + 4:], index)
     (flags,) = stream.unpack("<I")
@@ -47,7 +50,7 @@ def read_serialized(path: Path, index: int) -> Mesh:
     return with_face_normals(mesh) if flags & _FACE_NORMALS else mesh
 
 
-def _start(path: Path, data: bytes, index: int) -> tuple[int, int]:
+def _start(path: Path, data: Bytes, index: int) -> tuple[int, int]:
     """Where the mesh's header begins, and the version that it states."""
     if index < 0:
         raise ImportProblem(f"{path}: shape_index {index} is less than 0")
@@ -64,7 +67,7 @@ def _start(path: Path, data: bytes, index: int) -> tuple[int, int]:
     return _header(path, data, start)
 
 
-def _header(path: Path, data: bytes, start: int) -> tuple[int, int]:
+def _header(path: Path, data: Bytes, start: int) -> tuple[int, int]:
     magic, version = struct.unpack_from("<HH", data, start) if start + 4 <= len(data) else (0, 0)
     if magic != _MAGIC:
         raise ImportProblem(f"{path}: there is no .serialized mesh at byte {start}; one begins with 0x041C")
@@ -78,6 +81,7 @@ class _Stream:
 
     def __init__(self, path: Path, packed: memoryview, index: int) -> None:
         self._path, self._index, self._packed = path, index, packed
+        self._input: bytes | memoryview = b""  # the beginning of the rest, as far as it has been looked at
         self._inflate = zlib.decompressobj()
         self._ready = b""  # inflated and not asked for yet
         self._most = 1100 * len(packed)  # what zlib can make of it: 258 bytes of 2 bits (RFC 1951)
@@ -85,12 +89,14 @@ class _Stream:
     def _read(self, size: int) -> bytes:
         parts, left = [self._ready], size - len(self._ready)
         while left > 0:
+            if not self._input:
+                self._input, self._packed = self._packed[:_PACKED_PIECE], self._packed[_PACKED_PIECE:]
             try:
-                part = self._inflate.decompress(self._packed, max(left, _PIECE))
+                part = self._inflate.decompress(self._input, max(left, _PIECE))
             except zlib.error as error:
                 raise ImportProblem(f"{self._path}: mesh {self._index} is damaged: {error}") from error
-            self._packed = self._inflate.unconsumed_tail
-            if not part:
+            self._input = self._inflate.unconsumed_tail
+            if not part and (self._inflate.eof or not self._packed):
                 raise ImportProblem(f"{self._path}: mesh {self._index} is truncated")
             parts.append(part)
             left -= len(part)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from importer.mitsuba.plugin import Plugin
@@ -11,22 +13,35 @@ from importer.scene import Camera, Part
 
 def note_clipped(sensor: Plugin, camera: Camera, parts: list[Part], notes: Notes) -> None:
     """Names a clipping plane if a part of the scene may lie beyond it within the picture."""
+    if not parts:
+        return
     near, far = sensor.number("near_clip", 1e-2), sensor.number("far_clip", 1e4)
+    from_world = np.linalg.inv(_without_scale(camera.to_world))
+    corners = _corners(parts, from_world)
     for name, low, high in (("nearer than the near", 0.0, near), ("farther than the far", far, np.inf)):
-        if any(_meets(part, camera, low, high) for part in parts):
+        may_meet = np.flatnonzero(_is_inside(corners, camera, low, high))
+        if any(_meets(parts[index], from_world, camera, low, high) for index in may_meet):
             limit = near if high == near else far
             notes.left_out(f"a clipping plane: what lies {name} one, at {limit:g}, is seen here", sensor.where)
 
 
-def _meets(part: Part, camera: Camera, low: float, high: float) -> bool:
-    """Bounds first, since most parts are nowhere near; then whether there is a triangle that no plane of the region
-    separates from it, which near its edges may be one that misses it."""
-    to_camera = np.linalg.inv(_without_scale(camera.to_world)) @ part.to_world
-    positions = part.mesh.positions
-    corners = np.array(np.meshgrid(*np.stack([positions.min(axis=0), positions.max(axis=0)], axis=1))).reshape(3, -1).T
-    if not _is_inside(_moved(corners, to_camera)[None], camera, low, high).any():
-        return False
-    return bool(_is_inside(_moved(positions, to_camera)[part.mesh.triangles], camera, low, high).any())
+def _corners(parts: list[Part], from_world: np.ndarray) -> np.ndarray:
+    """(n, 8, 3): of all parts' bounds at once, since there may be thousands, and most are nowhere near."""
+    boxes: dict[int, np.ndarray] = {}
+    for mesh in (part.mesh for part in parts):
+        if id(mesh) not in boxes:
+            bounds = zip(mesh.positions.min(axis=0), mesh.positions.max(axis=0))
+            boxes[id(mesh)] = np.array(list(itertools.product(*bounds)))
+    matrices = from_world @ np.stack([part.to_world for part in parts])
+    local = np.stack([boxes[id(part.mesh)] for part in parts])
+    return local @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
+
+
+def _meets(part: Part, from_world: np.ndarray, camera: Camera, low: float, high: float) -> bool:
+    """Whether there is a triangle that no plane of the region separates from it, which near its edges may be one that
+    misses it."""
+    positions = _moved(part.mesh.positions, from_world @ part.to_world)
+    return bool(_is_inside(positions[part.mesh.triangles], camera, low, high).any())
 
 
 def _moved(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:

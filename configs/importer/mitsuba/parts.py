@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from importer.materials import models
+from importer.materials.normal_maps import NormalMaps
 from importer.materials.parameters import scaled
 from importer.mitsuba.colours import Use
 from importer.mitsuba.materials import MaterialReader
-from importer.mitsuba.normal_maps import NormalMaps
+from importer.mitsuba.media import read_absorption
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.shapes import ANALYTIC, FILES, NO_COUNTERPART, Geometry, ShapeReader
 from importer.mitsuba.transforms import mirrors
@@ -19,6 +20,25 @@ from importer.scene import BLACK, Colour, Material, Part, Texture
 
 GROUPS = ("shapegroup", "instance", "merge")
 _MAX_PARTS = 1_000_000  # with all instances
+
+
+def check_count(shapes: list[Plugin]) -> None:
+    """Before any is read: merges of merges double what there is at each step."""
+    counts: dict[int, int] = {}
+    total = 0
+    for shape in shapes:
+        total += _count(shape, counts) if shape.type != "shapegroup" else 0  # which instances show
+        if total > _MAX_PARTS:
+            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
+                                "are read")
+
+
+def _count(shape: Plugin, counts: dict[int, int]) -> int:
+    """Of a shape and those that it holds; each object is counted once, however many refer to it."""
+    if shape.key not in counts:
+        inner = [child for child in shape.children if child.kind == "shape"] if shape.type in GROUPS else []
+        counts[shape.key] = sum(_count(child, counts) for child in inner) if inner else 1
+    return counts[shape.key]
 
 
 @dataclass
@@ -59,9 +79,6 @@ class PartReader:
             self.add(child, to_world)
 
     def _single(self, shape: Plugin, outer: np.ndarray) -> None:
-        if len(self.parts) >= _MAX_PARTS:
-            raise ImportProblem(f"{shape.where}: is one of more than {_MAX_PARTS} shapes with all instances, the most that "
-                                "are read")
         if shape.key not in self._read:
             self._read[shape.key] = self._geometry_and_material(shape)
         geometry, material = self._read[shape.key]
@@ -78,9 +95,7 @@ class PartReader:
 
     def _material(self, shape: Plugin) -> Material:
         emitter = shape.only("emitter")
-        has_medium = bool(shape.all_of("medium"))
-        if has_medium:
-            self.notes.refuse("a medium", shape.where)
+        media = shape.all_of("medium")
         if shape.all_of("subsurface"):
             self.notes.refuse("light that scatters below a surface (subsurface)", shape.where)
         if shape.all_of("sensor"):
@@ -88,12 +103,23 @@ class PartReader:
         bsdf = self._bsdf(shape)
         if bsdf:
             material = self.materials.read(bsdf)
-        elif has_medium and not emitter:
+        elif media and not emitter:
             material = models.null("null")
         else:  # Shape::configure of 0.6, Shape::Shape of 3
             grey = 0.0 if emitter else 0.5
             material = models.diffuse("default", (grey, grey, grey), self.notes, shape.where)
+        if media:
+            material = self._filled(material, media, shape)
         return self._lit(material, emitter, shape) if emitter else material
+
+    def _filled(self, material: Material, media: list[Plugin], shape: Plugin) -> Material:
+        """Glass that takes up light says so itself."""
+        if models.can_absorb(material) and [medium.name for medium in media] == ["interior"]:
+            absorption = read_absorption(media[0], self.notes)
+            if absorption is not None:
+                return models.absorbing(material, absorption, media[0].where)
+        self.notes.refuse("a medium that scatters light, or is not within glass", shape.where)
+        return material
 
     def _bsdf(self, shape: Plugin) -> Plugin | None:
         """0.6 takes several for the groups of an .obj, by their names there, and those of the .obj's .mtl file."""

@@ -9,7 +9,7 @@ from importer.mitsuba.clipping import note_clipped
 from importer.mitsuba.integrator import read_max_bounces
 from importer.mitsuba.lights import read_light
 from importer.mitsuba.materials import MaterialReader
-from importer.mitsuba.parts import PartReader
+from importer.mitsuba.parts import PartReader, check_count
 from importer.mitsuba.plugin import Plugin
 from importer.mitsuba.shapes import ShapeReader
 from importer.mitsuba.textures import TextureReader
@@ -30,9 +30,12 @@ def read_mitsuba(path: Path, notes: Notes, parameters: dict[str, str]) -> Scene:
     scene.source_version = tree.version
     scene.max_bounces = read_max_bounces(_integrator(root), notes)
     for emitter in root.all_of("emitter"):
-        read_light(emitter, scene, tree.folder, notes)
+        if emitter.type != "area" or not emitter.id:  # an area light with an id is there for shapes to refer to
+            read_light(emitter, scene, tree.folder, notes)
     parts = PartReader(ShapeReader(tree.folder, notes), MaterialReader(TextureReader(tree.folder, notes), notes), notes)
-    for shape in root.all_of("shape"):
+    shapes = root.all_of("shape")
+    check_count(shapes)
+    for shape in shapes:
         parts.add(shape)
     scene.parts = parts.parts
     note_clipped(sensor, scene.camera, scene.parts, notes)

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from importer.output.world import FLOAT_MAX
 from importer.problems import ImportProblem, Notes
 from importer.scene import Mesh
 from scenes.glb_file import FLOAT, Buffer
-
-_FLOAT_MAX = float(np.finfo(np.float32).max)
 
 
 def is_translation_rotation_scale(matrix: np.ndarray) -> bool:
@@ -51,8 +50,8 @@ def _check_mesh(mesh: Mesh, where: str) -> None:
             continue
         if len(values) != count:
             raise ImportProblem(f"{where}: it has {count} positions and {len(values)} {name}s; as many would be right")
-        if not (np.abs(values) <= _FLOAT_MAX).all():  # false of NaN, too
-            vertex = int(np.argmin((np.abs(values) <= _FLOAT_MAX).all(axis=1)))
+        if not (np.abs(values) <= FLOAT_MAX).all():  # false of NaN, too
+            vertex = int(np.argmin((np.abs(values) <= FLOAT_MAX).all(axis=1)))
             raise ImportProblem(f"{where}: the {name} of vertex {vertex} is {values[vertex].tolist()}; "
                                 f"numbers that single precision holds would be right")
     if len(mesh.triangles) and not (0 <= mesh.triangles.min() and mesh.triangles.max() < count):

@@ -14,7 +14,7 @@ from importer.output.materials import Materials
 from importer.output.nodes import camera_json, lights_json, matrix_json
 from importer.output.packing import Packer
 from importer.output.textures import Textures
-from importer.output.world import World, check_affine, world_of
+from importer.output.world import World, check_affine, check_single, world_of
 from importer.problems import ImportProblem, Notes
 from importer.scene import Mesh, Part, Scene
 from scenes.glb_file import Buffer, glb
@@ -65,7 +65,7 @@ class _Writer:
         if index is None:
             return
         self.nodes.append({"name": part.name, **matrix_json(to_world), "mesh": index})
-        self._count(index, to_world)
+        self._count(index, to_world, where)
 
     def _mesh(self, part: Part, mesh: Mesh, where: str) -> int | None:
         material = self.materials.written(part.material)
@@ -78,11 +78,12 @@ class _Writer:
                                     "primitives": [{**primitive, "material": material.index}]})
         return self._mesh_of[key]
 
-    def _count(self, index: int, to_world: np.ndarray) -> None:
+    def _count(self, index: int, to_world: np.ndarray, where: str) -> None:
         primitive = self.meshes[index]["primitives"][0]
         bounds = self.buffer.accessors[primitive["attributes"]["POSITION"]]
         corners = np.array(list(itertools.product(*zip(bounds["min"], bounds["max"]))))
         self.corners.append(corners @ to_world[:3, :3].T + to_world[:3, 3])
+        check_single(self.corners[-1], f"{where}: what its transform makes of it")
         self.triangles += self.buffer.accessors[primitive["indices"]]["count"] // 3
         self.lamps += "emissiveFactor" in self.materials.listed[primitive["material"]]
 

@@ -7,7 +7,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
-from importer.output.world import World
+from importer.output.world import FLOAT_MAX, World, check_single
 from importer.problems import ImportProblem
 from importer.scene import Camera, Light, LightKind
 
@@ -39,7 +39,7 @@ def _lens(camera: Camera, far: float) -> dict[str, Any]:
                                 f"an angle between 0 and 180 would be right")
         return {"type": "perspective", "perspective": {
             "aspectRatio": aspect, "yfov": math.radians(camera.vertical_fov), "znear": 1e-6 * far}}
-    if not 0 < camera.half_height < math.inf:
+    if not 0 < camera.half_height * max(aspect, 1.0) <= FLOAT_MAX:
         raise ImportProblem(f"camera: half its picture's height is {camera.half_height:g}; a length above 0 would be right")
     return {"type": "orthographic", "orthographic": {
         "xmag": aspect * camera.half_height, "ymag": camera.half_height, "znear": 0.0, "zfar": far}}
@@ -69,10 +69,12 @@ def _node(light: Light, world: World, index: int) -> dict[str, Any]:
     matrix = np.eye(4)
     if light.kind is not LightKind.DIRECTIONAL:
         matrix[:3, 3] = world.turn @ _vector(light, "position", light.position)
+        check_single(matrix, f"light {light.name}: its position")
     if light.kind is not LightKind.POINT:
         back = -world.turn @ _vector(light, "direction", light.direction)
         if not back.any():
             raise ImportProblem(f"light {light.name}: its direction is (0, 0, 0); one with a length would be right")
+        back = back / np.abs(back).max()  # whose length may be more than numbers hold
         matrix[:3, :3] = _frame(back, np.eye(3)[int(np.argmin(np.abs(back)))])
     return {**node, **matrix_json(matrix)}
 

@@ -18,8 +18,11 @@ def texel_numbers(texture: Texture) -> np.ndarray:
     """(height, width) float32: the mean of R, G and B with the texture's scale, as scene.py has it."""
     rgb = texture.image.pixels[..., :3]
     weights = np.asarray(texture.scale, float) / 3  # one channel at a time, as each is larger than the image
-    channels = (srgb.linear(Image("", rgb[..., i:i + 1]))[..., 0].astype(np.float32) for i in range(3))
-    return sum(channel * np.float32(weight) for channel, weight in zip(channels, weights))
+    total = np.zeros(rgb.shape[:2], np.float32)
+    for i in range(3):
+        channel = srgb.linear(Image("", rgb[..., i:i + 1]))[..., 0].astype(np.float32, copy=False)
+        total += channel * np.float32(weights[i])
+    return total
 
 
 @dataclass

@@ -14,8 +14,17 @@ from importer.output.glb import Totals
 from importer.problems import Notes
 
 _WIDTH = 100
+_LONGEST = 600  # of a sentence; a name in it may be of any length
 _PATIENCE_S = 3.0  # until one wants to know what goes on
 _HEADINGS = {"approximated": "approximated", "left out": "left out"}
+
+
+def one_line(text: str) -> str:
+    """A sentence, in which names of the scene stand, as a terminal can show it."""
+    text = " ".join("".join(c if c.isprintable() or c.isspace() else "\N{REPLACEMENT CHARACTER}" for c in text).split())
+    if len(text) <= _LONGEST:
+        return text
+    return f"{text[:_LONGEST // 2]} ... {text[-_LONGEST // 2:]}"
 
 
 def _count(number: int, one: str, many: str | None = None) -> str:
@@ -34,7 +43,7 @@ def summary(totals: Totals, config: dict[str, Any], source: dict[str, Any], seco
     environment = config.get("environment")
     if environment is not None:
         lights.append("an image of the sky" if isinstance(environment, dict) else "a sky of one radiance")
-    rows = [("source", f"{source['file']}, {source['format']} {source['version']}".rstrip()),
+    rows = [("source", one_line(f"{source['file']}, {source['format']} {source['version']}")),
             ("files read", f"{len(source['files']):,}"),
             ("shapes", f"{totals.parts:,} of {_count(totals.meshes, 'mesh', 'meshes')}"),
             ("triangles", f"{totals.triangles:,}"),
@@ -50,9 +59,9 @@ def summary(totals: Totals, config: dict[str, Any], source: dict[str, Any], seco
 
 def _cells(row: dict[str, str | int], width: int) -> Iterator[str]:
     """The sentence in as many lines as it needs, how often and where first beside its first one."""
-    lines = textwrap.wrap(str(row["what"]), width - 2) or [""]
+    lines = textwrap.wrap(one_line(str(row["what"])), width - 2) or [""]
     times = "once" if row["count"] == 1 else f"{row['count']:,} times"
-    yield f"  {lines[0]:<{width - 2}}  {times:<12} {row['first']}".rstrip()
+    yield f"  {lines[0]:<{width - 2}}  {times:<12} {one_line(str(row['first']))}".rstrip()
     yield from (f"  {line}" for line in lines[1:])
 
 
@@ -94,7 +103,7 @@ def _show(status: Callable[[], str], is_over: threading.Event) -> None:
     while not is_over.wait(1.0):
         elapsed = time.monotonic() - start
         if elapsed >= _PATIENCE_S:
-            text = f"import: {elapsed:.0f} s, {status()}"
+            text = one_line(f"import: {elapsed:.0f} s, {status()}")
             sys.stderr.write(f"\r\033[K{text[:_WIDTH]}")
             sys.stderr.flush()
             is_shown = True

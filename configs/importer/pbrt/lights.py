@@ -8,7 +8,7 @@ import numpy as np
 
 from importer.pbrt.parameters import Parameters
 from importer.pbrt.spectra import COLOURS, Spectra
-from importer.pbrt.transforms import unit
+from importer.pbrt.transforms import check_usable, unit
 from importer.problems import ImportProblem, Notes
 from importer.scene import Light, LightKind, Rgb
 
@@ -33,6 +33,7 @@ class Lights:
         if kind not in makers:
             raise ImportProblem(f'{parameters.place}: there is no light "{kind}"; it must be point, spot, distant or'
                                 " infinite")
+        check_usable(to_world, parameters.place)
         light = makers[kind](parameters, to_world, colour_space)
         self._count += 1
         light.name = f"{kind} light {self._count}"

@@ -67,14 +67,18 @@ class Reader:
                 raise ImportProblem(f'{self.where}: "{name}" of {self.parameters.what} is a texture; it must be a spectrum')
         return self.spectra.metal(self.parameters, eta, k, self.state.colour_space)
 
-    def alpha(self, default: float, prefix: str = "", names: Sequence[str] = _ROUGHNESSES) -> Number:
+    def alpha(self, default: float, prefix: str = "", names: Sequence[str] = _ROUGHNESSES,
+              is_smooth_at_0: bool = False) -> Number:
         """Of "roughness", or of "uroughness" and "vroughness", which win; of those that the material knows. Remapped unless
-        the file says not to."""
+        the file says not to, or unless both are 0 and the material smooth then."""
         both: Number = default if names[0] != _ROUGHNESSES[0] else self.number(prefix + names[0], default)
         along = [self.textures.number(self.parameters, prefix + name, None, self.state) if name in names else None
                  for name in _ROUGHNESSES[1:]]
         remap = self.parameters.flag("remaproughness", True)
-        u, v = (roughness.pbrt_alpha(both if value is None else value, remap, self.version) for value in along)
+        values = [both if value is None else value for value in along]
+        if is_smooth_at_0 and all(arithmetic.is_constant(value, 0.0) for value in values):
+            return 0.0
+        u, v = (roughness.pbrt_alpha(value, remap, self.version) for value in values)
         return roughness.isotropic_alpha(u, v, self.notes, self.where)
 
 

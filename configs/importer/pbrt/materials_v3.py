@@ -40,7 +40,7 @@ def _metal(reader: Reader) -> Material:
 
 def _glass(reader: Reader) -> Material:
     reflected, passed = reader.colour("Kr", 1.0), reader.colour("Kt", 1.0)
-    alpha = reader.alpha(0.0, names=_ALONG_U_AND_V)
+    alpha = reader.alpha(0.0, names=_ALONG_U_AND_V, is_smooth_at_0=True)
     return models.dielectric(reader.name, reader.index("eta", "index"), 1.0, alpha, reflected, passed, reader.notes,
                              reader.where)
 

@@ -93,10 +93,11 @@ class _Reader:
         elif directive in ("Material", "NamedMaterial", "MakeNamedMaterial", "Texture", "AreaLightSource"):
             self._define(statement)
         elif directive == "MediumInterface":
-            if any(statement.strings):
-                self._notes.refuse("a medium between surfaces (MediumInterface)", str(place))
+            self._states.now = replace(self._states.now, medium=self._world.media.inside(statement))
         elif directive == "MakeNamedMedium":
-            self._notes.left_out(f'the medium "{statement.strings[0]}"', str(place))
+            name = statement.strings[0]
+            self._world.media.define(name, self._states.parameters(statement, f'the medium "{name}"', "medium"),
+                                     self._states.now.colour_space)
         elif directive == "TransformTimes":
             self._notes.left_out("the times of a movement (TransformTimes)", str(place))
         else:

@@ -16,7 +16,7 @@ from importer.pbrt.octahedral import latitude_longitude, upper_illuminance
 from importer.pbrt.parameters import Parameters
 from importer.pbrt.source import Folder
 from importer.pbrt.spectra import COLOURS, Spectra
-from importer.pbrt.transforms import orthogonal_part
+from importer.pbrt.transforms import of_directions, orthogonal_part
 from importer.problems import ImportProblem, Notes
 from importer.scene import BLACK, Sky
 
@@ -81,9 +81,12 @@ class Skies:
                     raise ImportProblem(f"{where}: {name} is dark above the horizon, so that no scale gives it the"
                                         ' "illuminance"; it must be bright there')
                 scale = scaled(scale, illuminance / there)
+                # Its sum over the upper half of the image has 2 pi over all pixels for their solid angle (Light::Create).
+                self._notes.approximated('the "illuminance" of a sky with an image as what it says; pbrt-v4 itself shows'
+                                         " twice as much", where)
             self._notes.approximated("the octahedral map of a sky by latitudes and longitudes", where)
             image = latitude_longitude(image)
-        turned, is_orthogonal = orthogonal_part(to_world)
+        turned, is_orthogonal = orthogonal_part(of_directions(to_world, parameters.place))
         if not is_orthogonal:
             self._notes.approximated("the stretched directions of a sky as unstretched ones", where)
         self._image = Sky(image=image, scale=scale, to_world=turned @ LIGHT_FROM_SKY)

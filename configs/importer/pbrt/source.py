@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,7 +59,7 @@ class Folder:
         if self._bytes_left < 0:
             raise ImportProblem(f"{where}: the scene's text is larger than {MOST_BYTES >> 20} MiB; large meshes belong"
                                 " into .ply files")
-        return raw.decode("utf-8", errors="replace")
+        return raw.removeprefix(codecs.BOM_UTF8).decode("utf-8", errors="replace")
 
 
 def _unpacked(raw: bytes, most: int, where: str) -> bytes:

@@ -33,6 +33,7 @@ class State:
     is_reversed: bool = False
     material: Definition | None = None  # None: the default one
     area_light: Definition | None = None
+    medium: str = ""  # within the shapes that follow
     colour_space: str = "srgb"
     attributes: dict[str, tuple[Parameter, ...]] = field(default_factory=dict)
     materials: dict[str, Definition] = field(default_factory=dict)
@@ -123,12 +124,13 @@ class States:
             self._activate(statement)
         else:
             if statement.directive == "Camera":
+                transforms.check_usable(self.now.to_world, statement.place)
                 self._coordinate_systems["camera"] = np.linalg.inv(self.now.to_world)
             return False
         return True
 
     def _set_matrix(self, matrix: np.ndarray, place: Place) -> None:
-        transforms.check_invertible(matrix, place)
+        transforms.check_finite(matrix, place)
         self.now = replace(self.now, to_world=matrix)
 
     def _recall(self, statement: Statement) -> None:

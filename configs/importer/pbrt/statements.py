@@ -101,7 +101,14 @@ def _statement(directive: str, place: Place, tokens: Tokens) -> Statement:
         statement.numbers = _fixed_numbers(tokens, numbers, directive, place)
     while has_parameters and tokens.peek().kind is Kind.STRING:
         statement.parameters.append(_parameter(tokens))
+    statement.parameters = _last_ones(statement.parameters)
     return statement
+
+
+def _last_ones(parameters: list[Parameter]) -> list[Parameter]:
+    """Of parameters of one type and name the last holds (v4: ParameterDictionary, v3: ParamSet::EraseFloat and so on)."""
+    last = {(parameter.kind, parameter.name): parameter for parameter in parameters}
+    return parameters if len(last) == len(parameters) else list(last.values())
 
 
 def _string(tokens: Tokens, directive: str) -> str:

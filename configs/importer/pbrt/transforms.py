@@ -48,22 +48,38 @@ def look_at(numbers: np.ndarray, place: Place) -> np.ndarray:
 
 
 def from_file(numbers: np.ndarray, place: Place) -> np.ndarray:
-    """A matrix as Transform and ConcatTransform have it: column by column."""
-    matrix = numbers.reshape(4, 4).T
-    if not np.allclose(matrix[3], [0, 0, 0, 1], atol=1e-6 * max(1.0, abs(matrix[3, 3]))):
-        raise ImportProblem(f"{place}: the matrix is no affine map; its fourth row must be 0 0 0 1")
-    check_invertible(matrix, place)
-    return matrix.copy()
+    """A matrix as Transform and ConcatTransform have it: column by column. What it may be depends on what it is used for,
+    as in pbrt: scenes have flat ones that no shape uses, and projective ones for skies."""
+    return numbers.reshape(4, 4).T.copy()
 
 
-def check_invertible(matrix: np.ndarray, place: Place) -> None:
+def check_finite(matrix: np.ndarray, place: Place) -> None:
     if not np.isfinite(matrix).all():
         raise ImportProblem(f"{place}: the transformation's numbers grow beyond 64 bits; they must be finite")
+
+
+def check_usable(matrix: np.ndarray, place: Place) -> None:
+    """For what has a place in the world: an affine map that has an inverse."""
+    check_finite(matrix, place)
+    *projective, one = matrix[3].tolist()
+    if max(map(abs, projective)) > 1e-6 * max(1.0, abs(one)) or abs(one - 1.0) > 1e-6 * max(1.0, abs(one)):
+        raise ImportProblem(f"{place}: the transformation that holds here is no affine map; its fourth row must be 0 0 0 1")
     scale = float(np.abs(matrix[:3, :3]).max()) or 1.0
     # Written out, since numpy's determinant takes ten times as long and large scenes have 100 thousand statements.
     a, b, c, d, e, f, g, h, i = (matrix[:3, :3] / scale).ravel().tolist()
     if abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < 1e-12:
-        raise ImportProblem(f"{place}: the transformation has no inverse; it must not flatten what it transforms")
+        raise ImportProblem(f"{place}: the transformation that holds here has no inverse; it must not flatten what it"
+                            " transforms")
+
+
+def of_directions(matrix: np.ndarray, place: Place) -> np.ndarray:
+    """(3, 3): what takes a sky's directions to the world, the inverse of how pbrt takes those of the world to the sky
+    (ImageInfiniteLight::Le by ApplyInverse of a vector), for which a translation and a projective part mean nothing."""
+    check_finite(matrix, place)
+    try:
+        return np.linalg.inv(np.linalg.inv(matrix)[:3, :3])
+    except np.linalg.LinAlgError as error:
+        raise ImportProblem(f"{place}: the transformation of the sky has no inverse; it must be a rotation") from error
 
 
 def unit(vector: np.ndarray) -> np.ndarray | None:

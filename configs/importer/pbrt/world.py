@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
 from importer.materials import colours, models
 from importer.materials import parameters as arithmetic
+from importer.materials.normal_maps import NormalMaps
 from importer.meshes import orient
 from importer.pbrt.lights import emission
 from importer.pbrt.materials import Materials
 from importer.pbrt.materials_v3 import OVERRIDES
+from importer.pbrt.media import Media
 from importer.pbrt.parameters import Parameters
 from importer.pbrt.shapes import Shapes, power_area, with_default_uvs
 from importer.pbrt.source import Place
@@ -20,6 +22,7 @@ from importer.pbrt.spectra import Spectra
 from importer.pbrt.state import Definition, State
 from importer.pbrt.statements import Statement
 from importer.pbrt.textures import Textures
+from importer.pbrt.transforms import check_usable
 from importer.problems import ImportProblem, Notes
 from importer.scene import Colour, Material, Mesh, Part, Texture
 
@@ -41,6 +44,8 @@ class World:
         self._objects: dict[str, list[Part]] = {}
         self._object: tuple[str, list[Part]] | None = None
         self._variants: dict[tuple[Mesh, str], Mesh] = {}
+        self._normal_maps = NormalMaps()
+        self.media = Media(spectra, notes)
         self._radiances: dict[Definition, Colour] = {}
 
     def begin_object(self, statement: Statement) -> None:
@@ -62,10 +67,13 @@ class World:
             raise ImportProblem(f"{statement.place}: ObjectInstance within an object; objects must not hold others")
         if name not in self._objects:
             raise ImportProblem(f'{statement.place}: there is no object "{name}"; ObjectBegin must define it before')
+        check_usable(to_world, statement.place)
         for part in self._objects[name]:
-            self._add(self.parts, Part(part.name, part.mesh, part.material, to_world @ part.to_world), statement.place)
+            moved = Part(part.name, part.mesh, part.material, to_world @ part.to_world)
+            self._add(self.parts, self._with_suited_normals(moved), statement.place)
 
     def add_shape(self, kind: str, parameters: Parameters, state: State) -> None:
+        check_usable(state.to_world, parameters.place)
         material, is_invisible = self._material(parameters, state)
         light = self._lamp_of(state, material, parameters)
         meshes = [] if is_invisible else self._shapes.read(kind, parameters, state.is_reversed)
@@ -77,7 +85,10 @@ class World:
             assert made is not None
             name = mesh.name if kind == "plymesh" else f"{kind} of line {parameters.place.line}"
             part = Part(name, self._fitting(mesh, made), made, state.to_world)
-            self._add(self.parts if self._object is None else self._object[1], part, parameters.place)
+            if self._object is None:
+                self._add(self.parts, self._with_suited_normals(part), parameters.place)
+            else:
+                self._add(self._object[1], part, parameters.place)
         parameters.finish(self._notes)
 
     def _material(self, parameters: Parameters, state: State) -> tuple[Material | None, bool]:
@@ -93,6 +104,8 @@ class World:
             parameters.without_effect("alpha", "shadowalpha")
             self._notes.left_out("surfaces without a material, which nothing sees", str(parameters.place))
             return None, False
+        if state.medium:
+            material = self.media.filled(material, state.medium, parameters.place)
         masked = self._materials.masked(material, parameters, state)
         if masked is None and state.area_light is not None and self._version == 4:
             # pbrt-v4 keeps such a lamp's light and lets no ray meet it (DiffuseAreaLight, constant alpha of 0).
@@ -155,6 +168,13 @@ class World:
             return 1.0
         mean = colours.luminance(arithmetic.mean_rgb(self._textures.emission(name, str(lamp.place))))
         return mean if mean > 0 else 1.0
+
+    def _with_suited_normals(self, part: Part) -> Part:
+        """A normal map in glTF's frame, which depends on whether the whole transformation mirrors."""
+        if part.material.normal_map is None:
+            return part
+        is_mirrored = bool(np.linalg.det(part.to_world[:3, :3]) < 0)
+        return replace(part, material=self._normal_maps.suited(part.material, part.mesh, is_mirrored))
 
     def _fitting(self, mesh: Mesh, material: Material) -> Mesh:
         """The mesh as the material needs it: with texture coordinates, and turned inside out for a bubble in glass."""
