@@ -8,7 +8,7 @@ def _of(file: str, name: str, find: str, replace: str) -> Mutation:
 
 
 IMPORTER_MUTATIONS = [
-    _of("mitsuba/transforms.py", "Mitsuba's rotations by the left hand", "sin(angle) * cross +", "sin(-angle) * cross +"),
+    _of("moves.py", "rotations by the left hand", "sin(angle) * cross +", "sin(-angle) * cross +"),
     _of("mitsuba/transforms.py", "Mitsuba's look-at with +x to the right", "left = _unit(np.cross(up, direction)", "left = _unit(np.cross(direction, up)"),
     _of("mitsuba/camera.py", "Mitsuba's camera not turned round", "np.diag([-1.0, 1.0, -1.0, 1.0])", "np.diag([1.0, 1.0, 1.0, 1.0])"),
     _of("mitsuba/camera.py", "a field of view always across", 'if axis == "y":\n        tangent *= aspect', 'if axis == "y":\n        tangent *= 1'),

@@ -16,7 +16,8 @@ from importer.meshes.serialized import read_serialized
 from importer.mitsuba.creases import creased
 from importer.mitsuba.files import SceneFolder
 from importer.mitsuba.plugin import Plugin
-from importer.mitsuba.transforms import mirrors, translation
+from importer.mitsuba.transforms import mirrors
+from importer.moves import translation
 from importer.problems import ImportProblem, Notes
 from importer.scene import Mesh
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from importer.mitsuba.values import numbers, number, vector
+from importer.moves import rotation, translation
 from importer.problems import ImportProblem
 
 _ATTRIBUTES = {
@@ -31,25 +32,6 @@ def step(tag: str, attributes: dict[str, str], is_old: bool, where: str) -> np.n
     if tag == "lookat":
         return _look_at_step(attributes, is_old, where)
     return _matrix(_needed(attributes, "value", where), where)
-
-
-def translation(offset: np.ndarray) -> np.ndarray:
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset
-    return matrix
-
-
-def rotation(axis: np.ndarray, degrees: float, where: str) -> np.ndarray:
-    """By the right hand about the axis (Rodrigues)."""
-    length = float(np.linalg.norm(axis))
-    if length == 0.0:
-        raise ImportProblem(f"{where}: a rotation needs an axis that is not zero")
-    x, y, z = axis / length
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    angle = np.radians(degrees)
-    matrix = np.eye(4)
-    matrix[:3, :3] += np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-    return matrix
 
 
 def look_at(origin: np.ndarray, target: np.ndarray, up: np.ndarray, where: str) -> np.ndarray:

@@ -7,6 +7,7 @@ from typing import Sequence
 
 import numpy as np
 
+from importer import moves
 from importer.pbrt import transforms
 from importer.pbrt.parameters import Parameter, Parameters
 from importer.pbrt.source import Place
@@ -189,9 +190,9 @@ def _texture_table(statement: Statement) -> str:
 
 _TRANSFORMS = {
     "Identity": lambda old, numbers, place: np.eye(4),
-    "Translate": lambda old, numbers, place: old @ transforms.translation(numbers),
+    "Translate": lambda old, numbers, place: old @ moves.translation(numbers),
     "Scale": lambda old, numbers, place: old @ transforms.scaling(numbers, place),
-    "Rotate": lambda old, numbers, place: old @ transforms.rotation(numbers[0], numbers[1:], place),
+    "Rotate": lambda old, numbers, place: old @ moves.rotation(numbers[1:], numbers[0], str(place)),
     "LookAt": lambda old, numbers, place: old @ transforms.look_at(numbers, place),
     "Transform": lambda old, numbers, place: transforms.from_file(numbers, place),
     "ConcatTransform": lambda old, numbers, place: old @ transforms.from_file(numbers, place),

@@ -8,29 +8,10 @@ from importer.pbrt.source import Place
 from importer.problems import ImportProblem
 
 
-def translation(offset: np.ndarray) -> np.ndarray:
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset
-    return matrix
-
-
 def scaling(factors: np.ndarray, place: Place) -> np.ndarray:
     if (factors == 0).any():
         raise ImportProblem(f"{place}: Scale has a factor of 0; factors must not be 0")
     return np.diag([*factors, 1.0])
-
-
-def rotation(degrees: float, axis: np.ndarray, place: Place) -> np.ndarray:
-    """About an axis by the right-hand rule, by Rodrigues' formula."""
-    length = np.linalg.norm(axis)
-    if length == 0:
-        raise ImportProblem(f"{place}: the axis of Rotate has no length; it must not be 0 0 0")
-    x, y, z = axis / length
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    angle = np.radians(degrees)
-    matrix = np.eye(4)
-    matrix[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return matrix
 
 
 def look_at(numbers: np.ndarray, place: Place) -> np.ndarray:
