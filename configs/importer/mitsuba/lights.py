@@ -61,11 +61,7 @@ def _name(emitter: Plugin) -> str:
 
 
 def _point(emitter: Plugin, notes: Notes) -> Light:
-    position = emitter.transform("to_world")[:3, 3]
-    if emitter.has("position"):
-        if emitter.has("to_world"):
-            raise ImportProblem(f"{emitter.where}: has both \"position\" and \"to_world\"; one of them is right")
-        position = emitter.vector("position", (0.0, 0.0, 0.0))
+    position = _given_or_of_transform("position", 3, emitter)
     return Light(_name(emitter), LightKind.POINT, emitted(emitter, "intensity"), tuple(position))
 
 
@@ -87,13 +83,18 @@ def _spot(emitter: Plugin, notes: Notes) -> Light:
 
 
 def _directional(emitter: Plugin, notes: Notes) -> Light:
-    direction = emitter.transform("to_world")[:3, 2]
-    if emitter.has("direction"):
-        if emitter.has("to_world"):
-            raise ImportProblem(f"{emitter.where}: has both \"direction\" and \"to_world\"; one of them is right")
-        direction = emitter.vector("direction", (0.0, 0.0, 1.0))
+    direction = _given_or_of_transform("direction", 2, emitter)
     return Light(_name(emitter), LightKind.DIRECTIONAL, emitted(emitter, "irradiance"),
                  direction=tuple(_direction(direction, emitter)))
+
+
+def _given_or_of_transform(name: str, column: int, emitter: Plugin) -> np.ndarray:
+    """A parameter that says in three numbers what a column of to_world says otherwise."""
+    if not emitter.has(name):
+        return emitter.transform("to_world")[:3, column]
+    if emitter.has("to_world"):
+        raise ImportProblem(f"{emitter.where}: has both \"{name}\" and \"to_world\"; one of them is right")
+    return emitter.vector(name, (0.0, 0.0, 0.0))
 
 
 def _direction(vector: np.ndarray, emitter: Plugin) -> np.ndarray:
