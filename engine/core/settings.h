@@ -13,6 +13,7 @@ enum class RandomNumbers { independent, sobol };
 enum class Sampler { bsdf, uniform, rl };
 enum class Nee { none, one_ray, two_ray };
 enum class LightChoice { uniform, power, learned };
+enum class LightPaths { none, trace };
 enum class BvhKind { sah, threaded };
 
 template <>
@@ -30,6 +31,10 @@ struct EnumNames<Nee> {
 template <>
 struct EnumNames<LightChoice> {
   static constexpr std::array<std::string_view, 3> values{"uniform", "power", "learned"};
+};
+template <>
+struct EnumNames<LightPaths> {
+  static constexpr std::array<std::string_view, 2> values{"none", "trace"};
 };
 template <>
 struct EnumNames<BvhKind> {
@@ -52,11 +57,19 @@ struct RenderSettings {
   LightChoice lights = LightChoice::power;
   double light_floor = 0.2;
   int light_prior = 2;
+  LightPaths light_paths = LightPaths::none;
+  int light_path_count = 0;
   BvhKind bvh = BvhKind::sah;
   RlSettings rl;
 
   bool operator==(const RenderSettings&) const = default;
 };
+
+// How many paths start at lights in every frame.
+inline int light_paths_of_a_frame(const RenderSettings& settings) {
+  if (settings.light_paths == LightPaths::none) return 0;
+  return settings.light_path_count > 0 ? settings.light_path_count : settings.width * settings.height;
+}
 
 // Whether NEE picks its light from the table.
 inline bool learns_lights(const RenderSettings& settings) {
@@ -129,6 +142,17 @@ void visit_knobs(Visitor& visit, RenderSettings& settings, Environment& environm
                  "0: no guess, by power at first",
                  0, 1000000},
         settings.light_prior);
+  visit(
+      KnobInfo{.name = "light_paths",
+               .unit = "",
+               .help = "paths that start at the lights, as many each frame as light_path_count says; trace: "
+                       "each of their events is connected to the camera, and weighted against what the "
+                       "camera's own paths find",
+               .implied = "\"none\""},
+      settings.light_paths);
+  visit(KnobInfo{"light_path_count", "paths",
+                 "light paths of a frame, where there are any; 0: as many as pixels", 0, 268435456, "0"},
+        settings.light_path_count);
   visit(
       KnobInfo{
           "bvh", "",

@@ -91,7 +91,7 @@ double add_light(LightTable& table, const Scene& scene, const Emitters& emitters
 }
 
 void add_lights_without_surface(LightTable& table, const Scene& scene, std::vector<double>& powers) {
-  const double radius = scene_radius(scene);
+  const double radius = scene_sphere(scene).radius;
   const auto add = [&](const Light& light, double power, double radiance) {
     table.lights.push_back(light);
     powers.push_back(power);
@@ -108,11 +108,12 @@ void add_lights_without_surface(LightTable& table, const Scene& scene, std::vect
   Light light{};
   light.choice.z = LIGHT_SKY;
   light.axis.w = static_cast<float>(radiance);
-  add(light, 4 * radiance * radius * radius, radiance);
+  add(light, power_of_environment(radiance, radius), radiance);
 }
 
 void set_choices(LightTable& table, LightChoice choice, const std::vector<double>& powers) {
   const double total = sum_of(powers);
+  table.power = total;
   const std::vector<double> chances =
       choice == LightChoice::uniform ? std::vector<double>(powers.size(), 1.0) : powers;
   const double all = sum_of(chances);
@@ -129,13 +130,19 @@ void set_choices(LightTable& table, LightChoice choice, const std::vector<double
 
 }  // namespace
 
-double scene_radius(const Scene& scene) {
+double power_of_environment(double mean_radiance, double scene_radius) {
+  return 4 * mean_radiance * scene_radius * scene_radius;
+}
+
+SceneSphere scene_sphere(const Scene& scene) {
   Bounds bounds;
   for (const Triangle& t : scene.triangles) bounds.add(bounds_of(t));
   for (const PunctualLight& light : scene.lights) {
     if (light.kind != PunctualLight::Kind::directional) bounds.add(light.position);
   }
-  return bounds.lo.x > bounds.hi.x ? 1 : 0.5 * glm::length(glm::dvec3(bounds.hi) - glm::dvec3(bounds.lo));
+  if (bounds.lo.x > bounds.hi.x) return {};
+  const glm::dvec3 lo(bounds.lo), hi(bounds.hi);
+  return {0.5 * (lo + hi), 0.5 * glm::length(hi - lo)};
 }
 
 float ray_offset(const Triangle& triangle) {

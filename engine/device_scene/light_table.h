@@ -17,6 +17,7 @@ struct LightTable {
   std::vector<uint> triangle_of;  // by scene triangle, index in `triangles`; NO_LIGHT where it does not emit
   bool has_sky = false;           // the last light is an image of the environment that is not black
   float brightest = 0;            // mean radiance of the brightest
+  double power = 0;               // of all of them: area times mean radiance, summed over the faces that emit
 };
 
 // A light is chosen in proportion to its power (of a surface area x mean radiance, twice that where both
@@ -24,8 +25,15 @@ struct LightTable {
 // power.
 LightTable build_light_table(const Scene& scene, LightChoice choice);
 
-// Of a sphere about the scene's triangles and lights that have a place.
-double scene_radius(const Scene& scene);
+// About the scene's triangles and lights that have a place.
+struct SceneSphere {
+  glm::dvec3 centre{0};
+  double radius = 1;
+};
+SceneSphere scene_sphere(const Scene& scene);
+
+// In the same units, of an environment of this mean radiance about a scene of this radius.
+double power_of_environment(double mean_radiance, double scene_radius);
 
 // Length by which rays leave a triangle (OFFSET_FRACTION of its largest coordinate).
 float ray_offset(const Triangle& triangle);

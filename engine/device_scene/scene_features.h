@@ -24,6 +24,9 @@ struct SceneFeatures {
   float sky_turn = 0;   // its rotation, as a part of all longitudes
   float reach = 0;      // a length that leads out of the scene
   float brightest = 0;  // mean radiance of the brightest
+  float power = 0;      // of all lights, in units of power_of_lamp() (light_table.cpp)
+  glm::vec3 centre{0};  // of a sphere about all that stands in the scene
+  float radius = 0;
 };
 
 SceneFeatures find_features(const Scene& scene);

@@ -41,6 +41,8 @@ struct FrameCounters {
   std::uint64_t saturated_updates = 0;  // targets clamped to, or lost at, the fixed-point limit
   std::uint64_t fireflies = 0;          // samples brighter than their pixel's threshold
   std::uint64_t clamped_samples = 0;    // samples with a channel above clamp_radiance
+  std::uint64_t light_rays = 0;         // rays of paths from the lights, those to the camera included
+  std::uint64_t splats = 0;             // connections of such paths to the camera that asked for a ray
 
   FrameCounters& operator+=(const FrameCounters& other) {
     paths += other.paths;
@@ -54,6 +56,8 @@ struct FrameCounters {
     saturated_updates += other.saturated_updates;
     fireflies += other.fireflies;
     clamped_samples += other.clamped_samples;
+    light_rays += other.light_rays;
+    splats += other.splats;
     return *this;
   }
 };

@@ -87,7 +87,7 @@ struct SequenceSums {
 
 }  // namespace
 
-Film::Film(int width, int height, int replicates, gpu::ProgramCache& programs)
+Film::Film(int width, int height, int replicates, int light_paths, gpu::ProgramCache& programs)
     : width_(width),
       height_(height),
       replicates_(replicates),
@@ -103,7 +103,12 @@ Film::Film(int width, int height, int replicates, gpu::ProgramCache& programs)
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
           gpu::also_fetched(gpu::Texels::uint4)),
       counters_("statistics", sizeof(gpu::Counters)),  // named so in saved states
-      accumulate_(programs.get("passes/accumulate.comp", {})) {}
+      accumulate_(programs.get("passes/accumulate.comp",
+                               light_paths > 0 ? gpu::Defines{{"HAS_LIGHT_PATHS", "1"}} : gpu::Defines{})) {
+  if (light_paths == 0) return;
+  splats_.emplace("splats", samples_.bytes() / sizeof(gpu::PixelSample) * sizeof(gpu::PixelSplat));
+  light_paths_.emplace("light paths", static_cast<std::size_t>(light_paths) * sizeof(gpu::uvec4));
+}
 
 void Film::bind() const {
   samples_.bind_storage(gpu::BINDING_SAMPLES);
@@ -111,6 +116,9 @@ void Film::bind() const {
   outliers_.bind_storage(gpu::BINDING_OUTLIERS);
   outliers_.bind_fetched(gpu::UNIT_OUTLIERS);
   counters_.bind_storage(gpu::BINDING_COUNTERS);
+  if (!splats_) return;
+  splats_->bind_storage(gpu::BINDING_SPLATS);
+  light_paths_->bind_storage(gpu::BINDING_LIGHT_PATHS);
 }
 
 void Film::start_frame() {
@@ -153,6 +161,7 @@ void Film::note_non_finite(std::span<const NonFiniteSample> samples) {
 
 void Film::reset() {
   samples_.clear();
+  if (splats_) splats_->clear();
   for (gpu::Buffer& sums : sums_) sums.clear();
   std::ranges::fill(weights_, Weights{});
   counters_.clear();
@@ -185,6 +194,8 @@ FrameCounters Film::counters() const {
   s.saturated_updates = counter(block, gpu::COUNTER_SATURATED);
   s.fireflies = counter(block, gpu::COUNTER_FIREFLIES);
   s.clamped_samples = counter(block, gpu::COUNTER_CLAMPED);
+  s.light_rays = counter(block, gpu::COUNTER_LIGHT_RAYS);
+  s.splats = counter(block, gpu::COUNTER_SPLATS);
   return s;
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,8 +21,8 @@ namespace qtrace {
 class Film {
  public:
   // `replicates`: sequences of random numbers that take turns; from two on they are summed apart, and their
-  // spread is the variance.
-  Film(int width, int height, int replicates, gpu::ProgramCache& programs);
+  // spread is the variance. `light_paths`: of a frame.
+  Film(int width, int height, int replicates, int light_paths, gpu::ProgramCache& programs);
 
   void bind() const;
   void start_frame();  // clears the frame's counters
@@ -50,7 +51,8 @@ class Film {
   std::vector<gpu::Buffer*> gathered();
 
   std::size_t bytes() const {
-    return samples_.bytes() + sums_.size() * sums_.front().bytes() + outliers_.bytes() + counters_.bytes();
+    return samples_.bytes() + sums_.size() * sums_.front().bytes() + outliers_.bytes() + counters_.bytes() +
+           (splats_ ? splats_->bytes() + light_paths_->bytes() : 0);
   }
 
  private:
@@ -77,6 +79,8 @@ class Film {
   std::vector<Weights> weights_;   // as sums_
   gpu::Buffer outliers_;
   gpu::Buffer counters_;
+  std::optional<gpu::Buffer> splats_;       // of a frame, where paths start at lights: empty between frames
+  std::optional<gpu::Buffer> light_paths_;  // what each of them counted
   std::shared_ptr<gpu::Program> accumulate_;
 };
 

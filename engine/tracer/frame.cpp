@@ -1,19 +1,48 @@
 #include "engine/tracer/frame.h"
 
+#include "engine/gpu/structs.h"
 #include "engine/tracer/stratified_points.h"
 #include "engine/tracer/tiles.h"
 
-namespace qtrace {
+#include <algorithm>
 
-void render_frame(const Frame& frame, const RenderSettings& settings, gpu::Program& shader, Film& film) {
+namespace qtrace {
+namespace {
+
+// Work groups of one invocation for each light path, in rows: OpenGL promises 65,535 along a side.
+void dispatch_light_paths(gpu::Program& shader, std::uint32_t paths) {
+  constexpr std::uint32_t kLongestRow = 32768;
+  const std::uint32_t groups = (paths + gpu::TRACE_GROUP - 1) / gpu::TRACE_GROUP;
+  const std::uint32_t row = std::min(groups, kLongestRow);
+  shader.dispatch(row, (groups + row - 1) / row);
+}
+
+}  // namespace
+
+std::vector<gpu::Program*> FrameShaders::all() const {
+  std::vector<gpu::Program*> programs;
+  for (const auto& program : {trace, trace_light}) {
+    if (program) programs.push_back(program.get());
+  }
+  return programs;
+}
+
+void render_frame(const Frame& frame, const RenderSettings& settings, const FrameShaders& shaders,
+                  Film& film) {
   film.start_frame();
-  shader.set_frame(frame.number);
-  shader.set_teaches(frame.teaches);
+  for (gpu::Program* program : shaders.all()) {
+    program->set_frame(frame.number);
+    program->set_teaches(frame.teaches);
+  }
   if (settings.random == RandomNumbers::sobol) {
     const auto [sequence, index] = frame.place;
-    shader.set_point(sequence, stratified_points(settings.seed, sequence, index, settings.stratified_events));
+    shaders.trace->set_point(sequence,
+                             stratified_points(settings.seed, sequence, index, settings.stratified_events));
   }
-  shader.dispatch(tiles(settings.width), tiles(settings.height));
+  shaders.trace->dispatch(tiles(settings.width), tiles(settings.height));
+  if (shaders.trace_light) {
+    dispatch_light_paths(*shaders.trace_light, static_cast<std::uint32_t>(light_paths_of_a_frame(settings)));
+  }
   film.accumulate(frame.number, frame.weight);
 }
 

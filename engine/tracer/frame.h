@@ -7,6 +7,8 @@
 #include "engine/tracer/sample_sequence.h"
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace qtrace {
 
@@ -17,7 +19,16 @@ struct Frame {
   float weight = 1;
 };
 
+// What renders it: one kind of frames, with the table or without it.
+struct FrameShaders {
+  std::shared_ptr<gpu::Program> trace;
+  std::shared_ptr<gpu::Program> trace_light;  // null where no paths start at lights
+
+  std::vector<gpu::Program*> all() const;
+};
+
 // Enqueues it. All that the shader reads must be bound, the film and the parameters of its size among it.
-void render_frame(const Frame& frame, const RenderSettings& settings, gpu::Program& shader, Film& film);
+void render_frame(const Frame& frame, const RenderSettings& settings, const FrameShaders& shaders,
+                  Film& film);
 
 }  // namespace qtrace

@@ -80,7 +80,7 @@ struct Inspection::State {
       : settings(wanted),
         buffers(scene, build_bvh(scene, wanted.bvh), truth_settings(wanted).lights),
         cells(scene, wanted.rl),
-        film(1, 1, 1, context.programs()),
+        film(1, 1, 1, 0, context.programs()),
         parameter_block("parameters", sizeof(gpu::Parameters)),
         defines(inspection_defines(wanted, buffers.features())) {
     const gpu::Parameters parameters =

@@ -93,6 +93,21 @@ void check_punctual(const Scene& scene, const RenderSettings& settings) {
       light.name, scene.name);
 }
 
+// What their weights would have to know of the camera's side, and do not.
+void check_light_paths(const RenderSettings& settings) {
+  if (settings.light_paths == LightPaths::none) return;
+  check(
+      settings.nee != Nee::two_ray,
+      "light_paths trace weighs its paths against nee one_ray or none, not against two_ray, which draws two "
+      "samples towards one light; set nee to one_ray");
+  check(settings.sampler != Sampler::rl || settings.rl.guided_bounces >= settings.max_bounces,
+        "light_paths trace cannot tell how far from the camera an event of its paths will be, but "
+        "rl.guided_bounces {} is less than max_bounces {}; raise it to {} or more",
+        settings.rl.guided_bounces, settings.max_bounces, settings.max_bounces);
+  gpu::check_buffer_size("light paths",
+                         static_cast<std::size_t>(light_paths_of_a_frame(settings)) * sizeof(gpu::uvec4));
+}
+
 }  // namespace
 
 static_assert(sizeof(gpu::FirstHit) >= sizeof(gpu::PixelSum) &&
@@ -109,6 +124,7 @@ void check_limits(const gpu::Context& context, const Scene& scene, const RenderS
   check_punctual(scene, settings);
   gpu::check_texels(scene);
   check_vertices(settings);
+  check_light_paths(settings);
   const gpu::SceneFeatures features = gpu::find_features(scene);
   const RenderSettings effective = effective_settings(settings, features);
   if (!has_table(effective)) return;

@@ -1,7 +1,10 @@
 #include "engine/tracer/parameters.h"
 
+#include "engine/device_scene/light_table.h"
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace qtrace {
 
@@ -50,6 +53,13 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.sky_first = features.lights * static_cast<gpu::uint>(sizeof(gpu::Light) / sizeof(gpu::vec4));
   p.sky_turn = features.sky_turn;
   p.reach = features.reach;
+  p.light_paths = whole(light_paths_of_a_frame(settings));
+  p.scene_centre = features.centre;
+  p.scene_radius = features.radius;
+  const double sky = gpu::power_of_environment((e[0] + e[1] + e[2]) / 3, features.radius);
+  p.disk_pdf = real(1 / (std::numbers::pi * features.radius * features.radius));
+  p.pixel_area = 4 * up * up * aspect / static_cast<float>(settings.width * settings.height);
+  p.environment_share = sky > 0 ? real(sky / (sky + features.power)) : 0.0F;
   return p;
 }
 

@@ -27,6 +27,10 @@ RenderSettings pilot_settings(RenderSettings settings) {
   const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
   settings.width = scaled(settings.width);
   settings.height = scaled(settings.height);
+  if (settings.light_path_count > 0) {
+    const double count = std::round(scale * scale * settings.light_path_count);
+    settings.light_path_count = std::max(1, static_cast<int>(count));
+  }
   settings.clamp_radiance = 0;
   settings.seed = mixed(settings.seed ^ kSeed);
   return settings;
@@ -45,7 +49,7 @@ Pilot::Pilot(const Camera& camera, const RenderSettings& settings, const gpu::Sc
     : settings_(pilot_settings(settings)),
       image_size_(settings.width, settings.height),
       most_taught_(most_taught_frames(settings_)),
-      film_(settings_.width, settings_.height, 1, programs),
+      film_(settings_.width, settings_.height, 1, light_paths_of_a_frame(settings_), programs),
       parameter_block_("parameters of the pilot", sizeof(gpu::Parameters)) {
   const gpu::Parameters parameters = make_parameters(camera, settings_, features, cells);
   parameter_block_.write(0, &parameters, sizeof(parameters));

@@ -4,11 +4,11 @@
 
 #include "engine/core/settings.h"
 #include "engine/device_scene/scene_buffers.h"
-#include "engine/gpu/program.h"
 #include "engine/gpu/program_cache.h"
 #include "engine/scene/scene.h"
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/film.h"
+#include "engine/tracer/frame.h"
 #include "engine/tracer/table_trial.h"
 
 #include <glm/vec2.hpp>
@@ -26,8 +26,8 @@ class Pilot {
         const CellBuffers* cells, gpu::ProgramCache& programs);
 
   struct Shaders {
-    gpu::Program& with_table;
-    gpu::Program& without;
+    const FrameShaders& with_table;
+    const FrameShaders& without;
   };
   // Its frames, until the trial is decided. What the image's frames need must be bound, and has to be bound
   // again. `teaches`: whether its lessons do; `learn` then updates the table. Waits for the work.

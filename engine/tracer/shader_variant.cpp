@@ -114,6 +114,10 @@ std::string choice(Choice chosen) {
   return std::to_string(static_cast<int>(chosen));
 }
 
+bool has_constant_environment(const RenderSettings& settings) {
+  return std::ranges::any_of(settings.environment, [](double e) { return e > 0; });
+}
+
 void define_table(gpu::Defines& defines, const RenderSettings& settings, const gpu::SceneFeatures& features) {
   defines["HAS_TABLE"] = "1";
   defines["LIGHT_ACTIONS"] = std::to_string(learns_lights(settings) ? features.lights : 0);
@@ -140,6 +144,9 @@ void define_table(gpu::Defines& defines, const RenderSettings& settings, const g
 RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatures& features) {
   if (features.lights == 0) settings.nee = Nee::none;
   if (settings.random == RandomNumbers::independent) settings.replicates = 1;
+  // What emits nothing has no paths, and what is seen without any event is the camera's alone.
+  const bool is_dark = features.lights == 0 && !has_constant_environment(settings);
+  if (is_dark || settings.max_bounces == 0) settings.light_paths = LightPaths::none;
   return settings;
 }
 
@@ -182,8 +189,8 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
     defines["HAS_SKY"] = "1";
     defines["SKY_LIGHT"] = std::to_string(features.lights - 1) + "u";
   }
-  if (has_sky || std::ranges::any_of(settings.environment, [](double e) { return e > 0; }))
-    defines["HAS_ENVIRONMENT"] = "1";
+  if (has_sky || has_constant_environment(settings)) defines["HAS_ENVIRONMENT"] = "1";
+  if (settings.light_paths != LightPaths::none) defines["HAS_LIGHT_PATHS"] = "1";
   if (has_table(settings)) define_table(defines, settings, features);
   return defines;
 }

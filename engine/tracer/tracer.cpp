@@ -42,7 +42,8 @@ struct Tracer::State {
       : context(gpu_context),
         buffers(scene, build_bvh(scene, wanted.bvh), wanted.lights),
         settings(effective_settings(wanted, buffers.features())),
-        film(settings.width, settings.height, settings.replicates, context.programs()),
+        film(settings.width, settings.height, settings.replicates, light_paths_of_a_frame(settings),
+             context.programs()),
         schedule(settings, has_table(settings) ? most_taught_frames(settings) : 1),
         trial(settings),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
@@ -52,12 +53,11 @@ struct Tracer::State {
                     context.programs());
       defines = with_cells(defines, table->cells());
     }
-    trace = context.programs().get("passes/trace.comp", joined(defines, more));
+    shaders = shaders_of(settings, joined(defines, more));
     if (trial.is_wanted()) {
       RenderSettings without = settings;
       without.sampler = Sampler::bsdf;
-      trace_without = context.programs().get("passes/trace.comp",
-                                             joined(shader_defines(without, buffers.features()), more));
+      shaders_without = shaders_of(without, joined(shader_defines(without, buffers.features()), more));
       pilot.emplace(scene.camera, settings, buffers.features(), &table->cells(), context.programs());
     }
     const gpu::Parameters parameters =
@@ -68,6 +68,14 @@ struct Tracer::State {
       const std::vector<std::string>& of_cells = table->cells().warnings();
       warnings.insert(warnings.end(), of_cells.begin(), of_cells.end());
     }
+  }
+
+  FrameShaders shaders_of(const RenderSettings& of_frame, const gpu::Defines& defines) const {
+    FrameShaders result;
+    result.trace = context.programs().get("passes/trace.comp", defines);
+    if (of_frame.light_paths != LightPaths::none)
+      result.trace_light = context.programs().get("passes/trace_light.comp", defines);
+    return result;
   }
 
   void bind() const {
@@ -91,11 +99,12 @@ struct Tracer::State {
   void warm_up() {
     bind();
     if (table) table->reset();
-    for (gpu::Program* program : {trace.get(), trace_without.get()}) {
-      if (program == nullptr) continue;
-      program->set_frame(0);
-      program->set_teaches(true);
-      program->dispatch(1);
+    for (const FrameShaders& kind : {shaders, shaders_without}) {
+      for (gpu::Program* program : kind.all()) {
+        program->set_frame(0);
+        program->set_teaches(true);
+        program->dispatch(1);
+      }
     }
     film.accumulate(0);
     context.finish();
@@ -112,7 +121,7 @@ struct Tracer::State {
   void render_pilot() {
     if (!pilot) return;
     bind();
-    pilot->render({*trace, *trace_without}, trial, learning, [this] { table->learn(); });
+    pilot->render({shaders, shaders_without}, trial, learning, [this] { table->learn(); });
     film.note_non_finite(pilot->non_finite_samples());
     of_pilot = pilot->counters();
   }
@@ -129,7 +138,7 @@ struct Tracer::State {
     const auto [x, y] = groups();
     const auto start = std::chrono::steady_clock::now();
     do {
-      trace->dispatch(x, y);
+      shaders.trace->dispatch(x, y);
       context.finish();
     } while (std::chrono::steady_clock::now() - start < kClockRise);
   }
@@ -141,8 +150,8 @@ struct Tracer::State {
   LearningSchedule schedule;
   TableTrial trial;
   gpu::Buffer parameter_block;
-  std::shared_ptr<gpu::Program> trace;
-  std::shared_ptr<gpu::Program> trace_without;  // null where no trial is wanted
+  FrameShaders shaders;
+  FrameShaders shaders_without;  // none where no trial is wanted
   std::optional<QTable> table;
   std::optional<Pilot> pilot;  // where a trial is wanted
   std::vector<std::string> warnings;
@@ -177,7 +186,8 @@ void Tracer::render_frame() {
                     .place = sequence_place(s.frames, s.settings, s.schedule, s.trial),
                     .teaches = s.learning && s.schedule.teaches(s.frames),
                     .weight = s.weight(s.frames)};
-  qtrace::render_frame(frame, s.settings, s.trial.is_without(s.frames) ? *s.trace_without : *s.trace, s.film);
+  qtrace::render_frame(frame, s.settings, s.trial.is_without(s.frames) ? s.shaders_without : s.shaders,
+                       s.film);
   if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
   if (s.trial.looks_after(s.frames)) s.look();
 }

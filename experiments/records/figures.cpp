@@ -234,6 +234,8 @@ std::vector<CounterColumn> counter_columns() {
       {"fireflies", "fireflies", "samples", [](const C& c) { return CsvValue(c.fireflies); }},
       {"clamped_samples", "clamped samples", "samples",
        [](const C& c) { return CsvValue(c.clamped_samples); }},
+      {"light_rays", "rays of light paths", "", [](const C& c) { return CsvValue(c.light_rays); }},
+      {"splats", "splats", "", [](const C& c) { return CsvValue(c.splats); }},
   };
 }
 

@@ -3,6 +3,7 @@
 #include "geometry/intersect.glsl"
 #include "geometry/scene.glsl"
 #include "geometry/surface.glsl"
+#include "light/emission_density.glsl"
 #include "light/punctual.glsl"
 #include "light/sky.glsl"
 #include "material/bsdf.glsl"
@@ -31,6 +32,10 @@ struct LightSample {
 #endif
 #ifdef HAS_PUNCTUAL
   bool is_punctual;   // paths cannot meet it
+#endif
+#ifdef HAS_LIGHT_PATHS
+  float arrivals;     // density of light paths of this light that reach the surface from there, per area that faces it, over
+                      // that of the light sample
 #endif
 };
 
@@ -106,6 +111,9 @@ void sample_lamp(inout LightSample result, Surface s, uvec4 bits, uint triangle_
   bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != EMITS_FRONT));
   result.radiance = lit ? light_radiance(triangle, result.direction, root * vec2(1.0 - along, along)) : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
+#ifdef HAS_LIGHT_PATHS
+  result.arrivals = emission_choice(result.light) / result.probability * lamp_direction_pdf(triangle, facing) / (t * t);
+#endif
   // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
   // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.
   result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
@@ -122,6 +130,9 @@ void sample_light_of_sky(inout LightSample result, Surface s, uvec4 bits, uint t
   result.direction = sky.direction;
   result.radiance = sky_radiance(sky.direction);
   result.pdf = result.probability * sky.pdf;
+#ifdef HAS_LIGHT_PATHS
+  result.arrivals = emission_choice(result.light) / result.probability * parameters.disk_pdf;
+#endif
   result.origin = ray_origin(s, sky.direction);
   result.segment = parameters.reach * sky.direction;
 #ifdef HAS_ABSORPTION
@@ -138,6 +149,10 @@ void sample_punctual(inout LightSample result, Surface s, float kind) {
   result.direction = way / t;
   result.radiance = t > 0.0 ? punctual_irradiance(result.light, kind, result.direction, t) : vec3(0.0);
   result.pdf = t > 0.0 ? result.probability : 0.0;
+#ifdef HAS_LIGHT_PATHS
+  float starting = kind == LIGHT_DIRECTIONAL ? parameters.disk_pdf : punctual_direction_pdf(result.light, kind) / (t * t);
+  result.arrivals = emission_choice(result.light) / result.probability * starting;
+#endif
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.origin = s.position + way;
   result.segment = ray_origin(s, result.direction) - result.origin;

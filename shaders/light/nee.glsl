@@ -9,6 +9,7 @@
 #include "material/emission.glsl"
 #include "material/own_lobes.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/event.glsl"
 #include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
@@ -20,6 +21,11 @@
 #if LIGHT_ACTIONS > 0
 #include "learning/gather.glsl"
 #include "learning/table.glsl"
+#endif
+#ifdef HAS_LIGHT_PATHS
+#include "light/emission_density.glsl"
+#include "mis/path_sums.glsl"
+#include "mis/seen_from.glsl"
 #endif
 
 // Power heuristic with exponent 2 for one sample of each (Veach 1997, section 9.2.4), kept from overflow.
@@ -35,6 +41,39 @@ float light_weight(LightSample light, float pdf, float other) {
 #endif
   return power_heuristic(pdf, other);
 }
+
+#ifdef HAS_LIGHT_PATHS
+
+// The same heuristic for one technique among three, where two have these densities over its own.
+float weight_beside(float other, float third) {
+  return 1.0 / (1.0 + other * other + third * third);
+}
+
+// Density of the light paths that make a path with this light sample, over its own.
+float light_paths_over(Event e, LightSample light) {
+  float reverse = 0.0;
+  if (e.sums.chain > 0.0) reverse = bsdf_pdf(seen_from(e, light.direction), e.wo);
+  return light.arrivals * face_cosine(e, light.direction) * drawn_from_behind(e, reverse);
+}
+
+float light_weight(Event e, LightSample light) {
+  float met = direction_pdf(e, light.direction) / light.pdf;
+#ifdef HAS_PUNCTUAL
+  if (light.is_punctual) met = 0.0;
+#endif
+  return weight_beside(met, light_paths_over(e, light));
+}
+
+// Density of light paths from the environment, over that of a path that leaves the scene in this direction.
+float sky_paths_over(float chain, vec3 direction) {
+#ifdef HAS_SKY
+  return chain * emission_choice(SKY_LIGHT) * sky_pdf(direction) * parameters.disk_pdf;
+#else
+  return chain * parameters.environment_share * (0.25 / PI) * parameters.disk_pdf;
+#endif
+}
+
+#endif
 
 // The target of a light's value, of light samples that are hidden, too: the square of what the light contributes once it
 // is chosen. Choosing lights by the root of its mean minimises the variance of one choice (Kahn & Marshall 1953);
@@ -77,18 +116,35 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   LightSample light = sample_event_light(e, bits);
   vec3 contribution = light_contribution(e, light, tally);
   if (contribution == vec3(0.0)) return contribution;
+#ifdef HAS_LIGHT_PATHS
+  return contribution * light_weight(e, light);
+#else
   return contribution * light_weight(light, light.pdf, direction_pdf(e, light.direction));
+#endif
 }
 
-// Weight of emission that the path's own ray met, which left a surface in `cell`.
-float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
-  return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));
+// Weight of emission that the path's own ray met, which left a surface in `cell`. `chain`: of its sums (PathSums).
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell, float chain) {
+  if (s.light == NO_LIGHT) return 1.0;
+  float sampled = light_pdf(cell, s.light, t, direction);
+#ifdef HAS_LIGHT_PATHS
+  return weight_beside(sampled / path_pdf, chain * lamp_emission_pdf(s.light));
+#else
+  return power_heuristic(path_pdf, sampled);
+#endif
 }
 
 // Of the environment's radiance, likewise.
-float environment_weight(vec3 direction, float path_pdf, int cell) {
+float environment_weight(vec3 direction, float path_pdf, int cell, float chain) {
 #ifdef HAS_SKY
-  return power_heuristic(path_pdf, light_probability(cell, SKY_LIGHT) * sky_pdf(direction));
+  float sampled = light_probability(cell, SKY_LIGHT) * sky_pdf(direction);
+#else
+  float sampled = 0.0;
+#endif
+#ifdef HAS_LIGHT_PATHS
+  return weight_beside(sampled / path_pdf, sky_paths_over(chain, direction));
+#elif defined(HAS_SKY)
+  return power_heuristic(path_pdf, sampled);
 #else
   return 1.0;
 #endif
@@ -147,11 +203,11 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   return result + contribution * light_weight(light, light.pdf / light.probability, other);
 }
 
-float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell, float chain) {
   return 0.0;
 }
 
-float environment_weight(vec3 direction, float path_pdf, int cell) {
+float environment_weight(vec3 direction, float path_pdf, int cell, float chain) {
   return 0.0;
 }
 
@@ -161,12 +217,20 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
   return vec3(0.0);
 }
 
-float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell) {
+float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell, float chain) {
+#ifdef HAS_LIGHT_PATHS
+  return s.light == NO_LIGHT ? 1.0 : weight_beside(0.0, chain * lamp_emission_pdf(s.light));
+#else
   return 1.0;
+#endif
 }
 
-float environment_weight(vec3 direction, float path_pdf, int cell) {
+float environment_weight(vec3 direction, float path_pdf, int cell, float chain) {
+#ifdef HAS_LIGHT_PATHS
+  return weight_beside(0.0, sky_paths_over(chain, direction));
+#else
   return 1.0;
+#endif
 }
 
 #endif

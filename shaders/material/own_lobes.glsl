@@ -222,6 +222,37 @@ OwnSample sample_own_lobes(Surface s, Bsdf b, vec3 wo, vec2 u, float u_lobe, Own
   return result;
 }
 
+// What all smooth lobes that lead from wo to wi do together.
+struct SmoothLobes {
+  vec3 value;         // f |cos(theta_i)|, as a mass
+  float probability;  // of drawing one of them
+};
+
+// Of two directions that one smooth lobe connects, each follows from the other up to rounding, which refraction near the
+// critical angle enlarges: the cosine of the angle between the direction that is asked for and the one that is found.
+const float SAME_DIRECTION = 0.9999;
+
+void add_smooth_lobe(inout SmoothLobes sum, OwnSample lobe, float share, vec3 wi) {
+  if (!lobe.is_delta || dot(lobe.direction, wi) < SAME_DIRECTION) return;
+  sum.value += lobe.weight * share;
+  sum.probability += share;
+}
+
+SmoothLobes smooth_lobes(Surface s, Bsdf b, vec3 wo, vec3 wi) {
+  OwnShares shares = own_shares(s, b, wo);
+  SmoothLobes sum = SmoothLobes(vec3(0.0), 0.0);
+  if (shares.mirror > 0.0) add_smooth_lobe(sum, sample_mirror(s, b, wo, shares.mirror), shares.mirror, wi);
+#ifdef HAS_TRANSMISSION
+  if (shares.through > 0.0 && passes_one_way(b))
+    add_smooth_lobe(sum, sample_through(s, b, wo, vec2(0.0), shares.through), shares.through, wi);
+#endif
+#ifdef HAS_CLEARCOAT
+  if (shares.coat > 0.0 && is_mirror_coat(b))
+    add_smooth_lobe(sum, sample_coat(s, b, wo, vec2(0.0), shares.coat), shares.coat, wi);
+#endif
+  return sum;
+}
+
 #endif
 
 // f |cos(theta_i)| of all lobes that have a density.

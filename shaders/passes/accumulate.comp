@@ -16,11 +16,18 @@ FETCHED_UVEC4(sum_texels, UNIT_SUMS);          // three elements for each pixel,
 layout(std430, binding = BINDING_SUMS) writeonly buffer SumBuffer { uvec4 sum_words[]; };
 layout(std430, binding = BINDING_OUTLIERS) buffer OutlierBuffer { PixelOutliers outliers[]; };
 
+#ifdef HAS_LIGHT_PATHS
+layout(std430, binding = BINDING_SPLATS) restrict buffer SplatBuffer { PixelSplat splats[]; };
+layout(std430, binding = BINDING_LIGHT_PATHS) restrict readonly buffer LightPathBuffer { uvec4 light_path_counts[]; };
+#endif
+
 shared uint group_counts[COUNTER_PER_FRAME];
 
 // What this invocation's pixels add.
 uint fireflies = 0u;
 uint clamped_samples = 0u;
+uint light_rays = 0u;
+uint splat_count = 0u;
 uint counts[COUNTER_NON_FINITE];  // those before it
 
 void judge_firefly(uint index, vec3 radiance) {
@@ -56,6 +63,42 @@ void count_sample(uvec4 tally, bool is_zero) {
   counts[COUNTER_SATURATED] += tally.w >> 16u;
 }
 
+#ifdef HAS_LIGHT_PATHS
+
+float radiance_of(uvec2 words) {
+  return float((double(words.y) * 4294967296.0LF + double(words.x)) * double(SPLAT_UNIT));
+}
+
+// What the frame's light paths brought to the pixel, which is left at zero for the next frame.
+vec3 take_splat(uint index) {
+  PixelSplat splat = splats[index];
+  splats[index] = PixelSplat(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+  return vec3(radiance_of(splat.red), radiance_of(splat.green), radiance_of(splat.blue)) /
+         parameters.inverse_brightest;
+}
+
+// There may be more light paths than pixels: each pixel counts every so many-th of them.
+void count_light_paths(uint index) {
+  uint pixels = parameters.image_size.x * parameters.image_size.y;
+  bool more = index < parameters.light_paths;
+  do {
+    if (more) {
+      uvec4 tally = light_path_counts[index];
+      counts[COUNTER_RAYS] += tally.x;
+      light_rays += tally.x;
+      splat_count += tally.y;
+      counts[COUNTER_LOOKUPS] += tally.z & 0xffffu;
+      counts[COUNTER_FALLBACKS] += tally.z >> 16u;
+      counts[COUNTER_SATURATED] += tally.w;
+      index += pixels;
+      more = index < parameters.light_paths;
+    }
+  } while (more);
+  if (more) report_cut(uvec2(index, 0u));
+}
+
+#endif
+
 void add_sample(uint index, vec3 radiance) {
   uvec4 a = fetch(sum_texels, 3u * index);
   uvec4 b = fetch(sum_texels, 3u * index + 1u);
@@ -70,6 +113,11 @@ void add_sample(uint index, vec3 radiance) {
 
 void add_pixel(uint index) {
   vec3 radiance = uintBitsToFloat(fetch(samples, 2u * index).rgb);
+  bool is_zero = radiance == vec3(0.0);
+#ifdef HAS_LIGHT_PATHS
+  radiance += take_splat(index);
+  count_light_paths(index);
+#endif
   bool finite = is_finite(radiance.r) && is_finite(radiance.g) && is_finite(radiance.b);
   if (finite) {
     judge_firefly(index, radiance);
@@ -77,7 +125,7 @@ void add_pixel(uint index) {
   } else {
     report_non_finite(uvec2(index % parameters.image_size.x, index / parameters.image_size.x), frame_number);
   }
-  count_sample(fetch(samples, 2u * index + 1u), radiance == vec3(0.0));
+  count_sample(fetch(samples, 2u * index + 1u), is_zero);
 }
 
 // Each invocation takes every 64th of its group's pixels: counts are then shared once for all of them.
@@ -103,6 +151,8 @@ void main() {
   }
   if (fireflies != 0u) atomicAdd(group_counts[COUNTER_FIREFLIES], fireflies);
   if (clamped_samples != 0u) atomicAdd(group_counts[COUNTER_CLAMPED], clamped_samples);
+  if (light_rays != 0u) atomicAdd(group_counts[COUNTER_LIGHT_RAYS], light_rays);
+  if (splat_count != 0u) atomicAdd(group_counts[COUNTER_SPLATS], splat_count);
   barrier();
   if (lane < COUNTER_PER_FRAME) count(lane, group_counts[lane]);
 }

@@ -1,5 +1,7 @@
 // A path on its way, and what of the table its last ray belongs to.
+#include "sampling/event.glsl"
 #include "shared/counters.glsl"
+#include "shared/variants.glsl"
 
 // The action that drew a ray's direction: what the ray's target is for.
 struct PreviousAction {
@@ -34,5 +36,16 @@ struct Path {
   vec3 medium;    // absorption per length where the ray is
   vec3 reaching;  // part of radiance that the last ray's way leaves
 #endif
+#ifdef HAS_LIGHT_PATHS
+  PathSums sums;
+#endif
   Tally tally;
 };
+
+float chain_of(Path path) {
+#ifdef HAS_LIGHT_PATHS
+  return path.sums.chain;
+#else
+  return 0.0;
+#endif
+}

@@ -10,7 +10,9 @@
 #include "path/path.glsl"
 #include "path/roulette.glsl"
 #include "path/rules.glsl"
+#include "path/state.glsl"
 #include "sampling/direction.glsl"
+#include "sampling/event.glsl"
 #include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
@@ -20,15 +22,46 @@
 #include "shared/parameters.glsl"
 #include "shared/structs.glsl"
 #include "shared/variants.glsl"
-#ifdef HAS_TABLE
-#include "learning/cells.glsl"
+#ifdef HAS_LIGHT_PATHS
+#include "geometry/camera.glsl"
+#include "mis/path_sums.glsl"
+#include "mis/seen_from.glsl"
+#endif
+
+#ifdef HAS_LIGHT_PATHS
+
+// At the first event, which light paths connect to the camera.
+PathSums sums_at_first(Event e) {
+  CameraView view = camera_view(e.surface.position);
+  return PathSums(0.0, float(parameters.light_paths) / (view.density * face_cosine(e, e.wo)));
+}
+
+// Behind an event: light paths lead on from it by the BSDF.
+PathSums sums_after(Event e, BsdfSample next) {
+  vec3 wi = next.direction.direction;
+  bool is_chained = e.sums.chain > 0.0;
+  Event seen;
+  if (is_chained) seen = seen_from(e, wi);
+#ifdef HAS_OWN_LOBES
+  if (next.direction.is_delta) {
+    if (!is_chained) return PathSums(0.0, 0.0);
+    float probability = smooth_lobes(e.surface, e.bsdf, e.wo, wi).probability;
+    float reverse = smooth_lobes(seen.surface, seen.bsdf, wi, e.wo).probability;
+    return sums_behind_smooth(e, wi, probability, reverse);
+  }
+#endif
+  float reverse = 0.0;
+  if (is_chained) reverse = bsdf_pdf(seen, e.wo);
+  return sums_behind(e, wi, next.direction.pdf, reverse);
+}
+
 #endif
 
 void leave_scene(inout Path path, uint bounce) {
   vec3 radiance = environment_radiance(path.direction);
   float weight = 0.0;
 #ifdef HAS_ENVIRONMENT
-  weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell);
+  weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell, chain_of(path));
   path.radiance += path.throughput * radiance * weight;
 #endif
   record_miss(path, bounce, radiance, weight);
@@ -38,7 +71,7 @@ void leave_scene(inout Path path, uint bounce) {
 void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, bool scatters, EventBits bits) {
   vec3 emitted = emitted_radiance(e.surface, e.bsdf);
   float weight =
-      bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell);
+      bounce == 0u ? 1.0 : emission_weight(e.surface, t, path.direction, path.pdf, path.cell, chain_of(path));
   path.radiance += path.throughput * emitted * weight;
   record_hit(path, e, next, bounce, emitted, weight, scatters, bits);
 }
@@ -59,6 +92,9 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   path.share = next.direction.share;
   path.weight = average(next.weight);
   path.cell = cell_of(e);
+#ifdef HAS_LIGHT_PATHS
+  path.sums = sums_after(e, next);
+#endif
 #ifdef HAS_OWN_LOBES
   path.draws_own = next.direction.is_own;
   path.own_factor = average(next.direction.weight);
@@ -84,13 +120,17 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   return true;
 }
 
-Event event_at(inout Path path, Meeting met) {
+Event event_at(inout Path path, Meeting met, uint bounce) {
   Event e;
   e.surface = met_surface(met, path.direction);
   e.bsdf = bsdf_of(e.surface, -path.direction);
   e.wo = -path.direction;
 #ifdef HAS_ABSORPTION
   e.medium = path.medium;
+#endif
+#ifdef HAS_LIGHT_PATHS
+  e.hit = met.hit;
+  e.sums = bounce == 0u ? sums_at_first(e) : path.sums;
 #endif
   return e;
 }
@@ -99,22 +139,6 @@ Event event_at(inout Path path, Meeting met) {
 bool needs_cell(uint bounce) {
   return LIGHT_ACTIONS > 0 || bounce < parameters.guided_bounces ||
          (frame_teaches != 0u && bounce == parameters.guided_bounces);
-}
-
-// The event's cell, and whether the table guides from there.
-void find_state(inout Path path, inout Event e, uint bounce) {
-#ifdef HAS_TABLE
-  e.cell = no_cell(e.surface);
-  if (needs_cell(bounce)) {
-    e.cell = find_cell(e.surface);
-    ++path.tally.lookups;
-    if (e.cell.index == NO_CELL) ++path.tally.fallbacks;
-  }
-#endif
-#if SAMPLER == SAMPLER_RL
-  e.is_guided = e.cell.index != NO_CELL && bounce < parameters.guided_bounces;
-  e.bsdf_share = bsdf_share_of(e);
-#endif
 }
 
 Path trace(RandomKey key, vec3 origin, vec3 direction) {
@@ -139,6 +163,9 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
 #ifdef HAS_ABSORPTION
   path.medium = vec3(0.0);
   path.reaching = vec3(1.0);
+#endif
+#ifdef HAS_LIGHT_PATHS
+  path.sums = PathSums(0.0, 0.0);
 #endif
   path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
 
@@ -165,12 +192,12 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
         leave_scene(path, bounce);
         going_on = false;
       } else {
-        Event e = event_at(path, met);
+        Event e = event_at(path, met, bounce);
         EventBits bits = event_bits(numbers, key, bounce);
         bool scatters = bounce < parameters.max_bounces;
         BsdfSample next;
         if (scatters || BOOTSTRAPS_AT_LAST_HIT) {
-          find_state(path, e, bounce);
+          find_state(e, path.tally, needs_cell(bounce), bounce < parameters.guided_bounces);
           next = bsdf_sample_at(e, bits.direction);
         }
         arrive(path, e, next, met.hit.t, bounce, scatters, bits);

@@ -3,6 +3,7 @@
 #include "geometry/surface.glsl"
 #include "material/bsdf.glsl"
 #include "material/own_lobes.glsl"
+#include "sampling/event.glsl"
 #include "sampling/random.glsl"
 #include "shared/fetch.glsl"
 #include "shared/math.glsl"
@@ -17,31 +18,6 @@
 #include "learning/qtable.glsl"
 #include "learning/table.glsl"
 #endif
-
-// A scattering event: everything that the choice of a direction depends on.
-struct Event {
-  Surface surface;
-  Bsdf bsdf;
-  vec3 wo;
-#ifdef HAS_TABLE
-  Cell cell;
-#endif
-#if SAMPLER == SAMPLER_RL
-  bool is_guided;    // whether directions are drawn with the table
-  float bsdf_share;  // of these, by the BSDF
-#endif
-#ifdef HAS_ABSORPTION
-  vec3 medium;  // absorption on the viewer's side
-#endif
-};
-
-int cell_of(Event e) {
-#ifdef HAS_TABLE
-  return e.cell.index;
-#else
-  return NO_CELL;
-#endif
-}
 
 struct DirectionSample {
   vec3 direction;
@@ -243,6 +219,7 @@ struct BsdfDraw {
   vec3 direction;
   float pdf;    // infinite for a smooth lobe
   vec3 weight;  // f |cos(theta)| over the density
+  bool is_lost;  // no density tells of it
 };
 
 BsdfDraw draw_bsdf(Event e, uvec4 bits) {
@@ -255,12 +232,15 @@ BsdfDraw draw_bsdf(Event e, uvec4 bits) {
 #endif
   drawn.pdf = bsdf_pdf(e, drawn.direction);
   drawn.weight = bsdf_cosine(e.surface, e.bsdf, e.wo, drawn.direction) / drawn.pdf;
+  drawn.is_lost = false;
 #ifdef HAS_OWN_LOBES
   if (own.is_own && own.sampled.is_delta) {
     drawn.pdf = INFINITY;
     drawn.weight = own.sampled.weight;
   }
-  if (!own.is_own && dot(e.surface.normal, drawn.direction) <= 0.0) drawn.weight = vec3(0.0);
+  bool is_outside = !own.is_own && dot(e.surface.normal, drawn.direction) <= 0.0;
+  if (is_outside) drawn.weight = vec3(0.0);
+  drawn.is_lost = is_outside || (own.is_own && own.sampled.is_delta && own.sampled.weight == vec3(0.0));
 #endif
   return drawn;
 }

@@ -153,6 +153,19 @@ struct PixelSample {
   uvec4 counts;   // rays, path segments, cell lookups | fallbacks << 16, updates | saturated << 16
 };
 
+// What a frame's light paths bring to a pixel: the sums of splat.glsl, whose low words stand before the high ones.
+struct PixelSplat {
+  uvec2 red;
+  uvec2 green;
+  uvec2 blue;
+  uvec2 unused;
+};
+const uint SPLAT_WORDS = 8u;
+// Of the brightest light's radiance: 2^-36; 64 bits of it hold 2.7e8 times that radiance.
+const float SPLAT_UNIT = 1.0f / 68719476736.0f;
+// One splat is clamped to this many units (2^58), four million times the brightest light.
+const float SPLAT_LIMIT = 288230376151711744.0f;
+
 // Sums over all frames, each times its weight, in double precision.
 struct PixelSum {
   double r;
@@ -241,6 +254,12 @@ struct Parameters {
   uint sky_first;       // element of `lights` at which it begins
   float sky_turn;       // by which its longitudes are shifted, as a part of all
   float reach;          // a length that leads out of the scene from wherever in it
+  uint light_paths;     // of a frame
+  vec3 scene_centre;    // of a sphere about all that stands in the scene
+  float scene_radius;
+  float environment_share;  // of light paths, that start at the constant environment
+  float disk_pdf;           // per area, of a disk as large as that sphere
+  float pixel_area;         // of the film: of a perspective one at depth 1
   uint unused;
 };
 
@@ -262,6 +281,8 @@ const int BINDING_FILTER_GUIDES = 20;
 const int BINDING_FILTER_SOURCE = 21;
 const int BINDING_FILTER_RESULT = 22;
 const int BINDING_BSDF_SHARES = 23;
+const int BINDING_SPLATS = 24;
+const int BINDING_LIGHT_PATHS = 16;  // what each of them counted
 
 // Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit. There may be more of
 // them than one program may use: that is at most 16 where a device allows no more (MAX_COMPUTE_TEXTURE_IMAGE_UNITS of OpenGL
@@ -299,6 +320,7 @@ const uint BLOCK_LIGHT = 2u;
 const uint BLOCK_TWO_RAY = 3u;
 const uint BLOCK_MORE = 4u;
 const uint BLOCKS_PER_EVENT = 4u;
+const uint BLOCKS_OF_LIGHT_PATHS = 0x20000000u;  // the same of paths from the lights
 const uint BLOCKS_OF_PASSING = 0x40000000u;  // one for each ray of a path, behind those of all events
 
 // Below this a lobe is taken for a mirror's: its width, the square, comes near the rounding of directions.
@@ -362,10 +384,12 @@ const uint COUNTER_SATURATED = 6u;
 const uint COUNTER_NON_FINITE = 7u;
 const uint COUNTER_FIREFLIES = 8u;
 const uint COUNTER_CLAMPED = 9u;
-const uint COUNTER_PER_FRAME = 10u;
-const uint COUNTER_ALL_NON_FINITE = 10u;
-const uint COUNTER_LOOPS_CUT = 11u;
-const uint COUNTER_COUNT = 12u;
+const uint COUNTER_LIGHT_RAYS = 10u;  // of paths from the lights; they are among all rays, too
+const uint COUNTER_SPLATS = 11u;
+const uint COUNTER_PER_FRAME = 12u;
+const uint COUNTER_ALL_NON_FINITE = 12u;
+const uint COUNTER_LOOPS_CUT = 13u;
+const uint COUNTER_COUNT = 14u;
 const uint MAX_LOCATIONS = 64u;
 
 struct Counters {

@@ -80,7 +80,7 @@ StagedFrame::StagedFrame(const gpu::Context& context, const Scene& scene, const 
       defines_(shader_defines(settings_, buffers_.features())),
       table_(scene, settings_.rl, table_actions(settings_, buffers_.features()), defines_,
              context.programs()),
-      film_(settings_.width, settings_.height, 1, context.programs()),
+      film_(settings_.width, settings_.height, 1, 0, context.programs()),
       parameters_("parameters", sizeof(gpu::Parameters)),
       trace_(programs_of(with_cells(defines_, table_.cells()))) {
   check(settings_.clamp_radiance == 0, "the passes of a frame are timed without clamping");

@@ -76,9 +76,8 @@ double Comparison::truth_error() const {
   return std::sqrt(variance) / sum;
 }
 
-Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision,
-                              const std::function<void(const Agreement&)>& watch, RandomNumbers random,
-                              LightChoice lights) const {
+RenderSettings Comparison::settings_of(Sampler sampler, Nee nee, RandomNumbers random,
+                                       LightChoice lights) const {
   RenderSettings settings;
   settings.width = settings.height = size_.size;
   settings.max_bounces = kBounces;
@@ -90,7 +89,13 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
   settings.replicates = random == RandomNumbers::sobol ? 16 : 1;
   settings.rl.sites_per_object = 40;
   settings.environment = {sky_, sky_, sky_};
-  Tracer tracer(test::device(), scene_, settings);
+  return settings;
+}
+
+Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_frames, double precision,
+                              const std::function<void(const Agreement&)>& watch, RandomNumbers random,
+                              LightChoice lights) const {
+  Tracer tracer(test::device(), scene_, settings_of(sampler, nee, random, lights));
   Agreement result;
   std::uint64_t non_finite = 0;
   do {
@@ -101,6 +106,22 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
     result.non_finite = non_finite;
     if (watch) watch(result);
   } while (result.mean_ratio_error > precision && result.frames + frames <= most_frames);
+  return result;
+}
+
+Agreement Comparison::measure_light_paths(Sampler sampler, Nee nee, int frames, LightChoice lights) const {
+  RenderSettings settings = settings_of(sampler, nee, RandomNumbers::independent, lights);
+  settings.light_paths = LightPaths::trace;
+  std::vector<RadianceImage> images;
+  std::uint64_t non_finite = 0;
+  for (int i = 0; i < kSeeds; ++i, ++settings.seed) {
+    const test::Rendering r = test::render(scene_, settings, frames);
+    images.push_back(r.image);
+    non_finite += r.non_finite;
+  }
+  Agreement result = compare(images);
+  result.frames = kSeeds * frames;
+  result.non_finite = non_finite;
   return result;
 }
 
@@ -123,6 +144,74 @@ Agreement Comparison::compare(const RadianceImage& image) const {
   result.blocks = pooled_chi2(difference, kBlock, kBlocksInPool);
   result.mean_ratio = a / b;
   result.mean_ratio_error = result.mean_ratio * std::sqrt(var_a / (a * a) + var_b / (b * b)) + kRounding;
+  return result;
+}
+
+namespace {
+
+// Of several estimates of one thing.
+struct Spread {
+  glm::dvec3 sum{0}, squares{0};
+  double count = 0;
+
+  void add(const glm::dvec3& value) { sum += value, squares += value * value, ++count; }
+  glm::dvec3 mean() const { return sum / count; }
+  glm::dvec3 variance_of_mean() const {
+    return glm::max(squares / count - mean() * mean(), 0.0) / (count - 1);
+  }
+};
+
+// Means of blocks of kBlock x kBlock pixels.
+std::vector<glm::dvec3> blocks_of(const std::vector<glm::dvec3>& pixels, int size) {
+  const int row = size / kBlock;
+  std::vector<glm::dvec3> blocks(static_cast<std::size_t>(row * row), glm::dvec3(0));
+  for (int i = 0; i < size * size; ++i) {
+    const int block = i / size / kBlock * row + i % size / kBlock;
+    blocks[static_cast<std::size_t>(block)] += pixels[static_cast<std::size_t>(i)] / (1.0 * kBlock * kBlock);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+Agreement Comparison::compare(const std::vector<RadianceImage>& seeds) const {
+  const auto size = static_cast<std::size_t>(size_.size) * static_cast<std::size_t>(size_.size);
+  std::vector<Spread> pixels(size), blocks(size / (kBlock * kBlock));
+  std::vector<double> means;
+  double truth = 0, variance_of_truth = 0;
+  for (const RadianceImage& image : seeds) {
+    for (std::size_t i = 0; i < size; ++i) pixels[i].add(image.mean[i]);
+    const std::vector<glm::dvec3> of_image = blocks_of(image.mean, size_.size);
+    for (std::size_t i = 0; i < of_image.size(); ++i) blocks[i].add(of_image[i]);
+    double mean = 0;
+    for (std::size_t i = 0; i < size; ++i) mean += edges_[i] == 0 ? mean_of(image.mean[i]) : 0;
+    means.push_back(mean);
+  }
+  Difference of_pixels, of_blocks;
+  of_pixels.scale = truth_.mean;
+  of_blocks.scale = blocks_of(truth_.mean, size_.size);
+  for (std::size_t i = 0; i < size; ++i) {
+    of_pixels.mean.push_back(pixels[i].mean() - truth_.mean[i]);
+    of_pixels.variance.push_back(pixels[i].variance_of_mean() + truth_.variance[i]);
+    if (edges_[i] != 0) continue;
+    truth += mean_of(truth_.mean[i]), variance_of_truth += variance_of(truth_.variance[i]);
+  }
+  const std::vector<glm::dvec3> truth_variance = blocks_of(truth_.variance, size_.size);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    of_blocks.mean.push_back(blocks[i].mean() - of_blocks.scale[i]);
+    of_blocks.variance.push_back(blocks[i].variance_of_mean() + truth_variance[i] / (1.0 * kBlock * kBlock));
+  }
+  Agreement result;
+  result.pixels = pooled_chi2(of_pixels, 1, kBlock);
+  result.blocks = pooled_chi2(of_blocks, 1, kBlocksInPool);
+  double sum = 0, squares = 0;
+  for (const double m : means) sum += m, squares += m * m;
+  const double n = static_cast<double>(means.size()), mean = sum / n;
+  const double variance = std::max(0.0, squares / n - mean * mean) / (n - 1);
+  result.mean_ratio = mean / truth;
+  result.mean_ratio_error =
+      result.mean_ratio * std::sqrt(variance / (mean * mean) + variance_of_truth / (truth * truth)) +
+      kRounding;
   return result;
 }
 

@@ -47,8 +47,16 @@ class Comparison {
                     RandomNumbers random = RandomNumbers::independent,
                     LightChoice lights = LightChoice::power) const;
 
+  // With paths from the lights. What one of them brings to several pixels ties these together, so the noise
+  // of blocks and of the whole comes from the spread of `kSeeds` renders of so many frames each.
+  static constexpr int kSeeds = 16;
+  Agreement measure_light_paths(Sampler sampler, Nee nee, int frames,
+                                LightChoice lights = LightChoice::power) const;
+
  private:
+  RenderSettings settings_of(Sampler sampler, Nee nee, RandomNumbers random, LightChoice lights) const;
   Agreement compare(const RadianceImage& image) const;
+  Agreement compare(const std::vector<RadianceImage>& seeds) const;
   double truth_error() const;  // of the mean, relative
 
   Scene scene_;

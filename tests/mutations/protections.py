@@ -68,15 +68,15 @@ PROTECTIONS = [
     Protection("counts run over into the next word", ("AMillionUpdatesOfOneEntryAreTheirMean",), (Edit(
         "shaders/learning/actions.glsl", "counted = (before & SUM_LOW_COUNT) == SUM_LOW_COUNT ? 1u : 0u;", "counted = 0u;"),), True),
     Protection("emission met after a light sample is weighted", ("room",), (Edit(
-        NEE, "return s.light == NO_LIGHT ? 1.0 : power_heuristic(path_pdf, light_pdf(cell, s.light, t, direction));",
-        "return 1.0;"),)),
+        NEE, "float sampled = light_pdf(cell, s.light, t, direction);", "float sampled = 0.0;"),)),
     Protection("specular directions have the density that they are drawn with",
                ("metal of roughness 0.05", "dielectric of roughness 0.05"), (Edit(
         "shaders/material/microfacet.glsl", "ggx_distribution(n, h, alpha) * 0.25;", "ggx_distribution(n, h, alpha) * 0.2;"),)),
     Protection("what does not emit is black", ("no light",), (Edit(
         "shaders/material/emission.glsl", "return s.back && emission.w == EMITS_FRONT ? vec3(0.0) : emission.rgb;", "return emission.rgb + 1e-3;"),)),
     Protection("the environment is met after every event", ("environment alone",), (Edit(
-        "shaders/path/trace.glsl", "weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell);",
+        "shaders/path/trace.glsl",
+        "weight = bounce == 0u ? 1.0 : environment_weight(path.direction, path.pdf, path.cell, chain_of(path));",
         "weight = bounce > 0u ? 0.0 : 1.0;"),)),
     Protection("a tree of one leaf has a node", ("one triangle",), (Edit(
         "engine/device_scene/wide_nodes.cpp", "uvec4(corners(bvh_.nodes[0]), 0), uvec4(0, 0, link(0), link(0))",

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from importer import IMPORTER_MUTATIONS
+from light_paths import LIGHT_PATH_MUTATIONS
 from mutation import Mutation
 from mutations import MUTATIONS
 from tree import ROOT, Edit, Tree, commit, copied
@@ -94,7 +95,7 @@ def main() -> int:
     parser.add_argument("--only", metavar="WORD", default="", help="errors whose name holds this, or whose file begins with it")
     parser.add_argument("--out", metavar="FILE", type=Path, default=ROOT / "results" / "mutations.md")
     options = parser.parse_args()
-    chosen = [m for m in (*MUTATIONS, *IMPORTER_MUTATIONS) if options.only in m.name or m.path.startswith(options.only)]
+    chosen = [m for m in (*MUTATIONS, *LIGHT_PATH_MUTATIONS, *IMPORTER_MUTATIONS) if options.only in m.name or m.path.startswith(options.only)]
     if not chosen:
         sys.exit(f"--only {options.only}: no error's name holds that, and no file begins with it")
     outcomes: list[Outcome] = []

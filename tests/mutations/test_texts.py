@@ -4,6 +4,7 @@ tells at once when a source has moved on."""
 import unittest
 
 from importer import IMPORTER_MUTATIONS
+from light_paths import LIGHT_PATH_MUTATIONS
 from mutations import MUTATIONS
 from protections import PROTECTIONS
 from tree import ROOT, Edit
@@ -17,7 +18,7 @@ class TextsTest(unittest.TestCase):
             self.assertNotEqual(edit.find, edit.replace)
 
     def test_mutations(self) -> None:
-        mutations = [*MUTATIONS, *IMPORTER_MUTATIONS]
+        mutations = [*MUTATIONS, *LIGHT_PATH_MUTATIONS, *IMPORTER_MUTATIONS]
         self.assertEqual(len({m.name for m in mutations}), len(mutations))
         for m in mutations:
             self.check(m.name, Edit(m.path, m.find, m.replace))

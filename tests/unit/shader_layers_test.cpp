@@ -20,7 +20,8 @@ using test::reaches;
 
 // As in shaders/README.md.
 const std::vector<std::string> kRooms{"shared",   "geometry", "material", "learning",
-                                      "sampling", "light",    "path",     "passes"};
+                                      "sampling", "mis",      "light",    "path",
+                                      "light_path", "passes"};
 
 // By file, both below shaders/.
 IncludeGraph read_shaders() {

@@ -1,0 +1,47 @@
+"""Deliberate errors of paths from the lights and of their weights, one at a time."""
+
+from mutation import Mutation
+
+LIGHT_PATH_MUTATIONS = [
+    Mutation("the camera's density at a light path's event left out", "light_path/light_path.glsl",
+             "float weight = weight_beside(density * drawn_from_behind(e, reverse), 0.0);",
+             "float weight = weight_beside(density * drawn_from_behind(e, 0.0), 0.0);"),
+    Mutation("a light path's density at the camera's event left out", "path/trace.glsl",
+             "if (is_chained) reverse = bsdf_pdf(seen, e.wo);", ""),
+    Mutation("the camera's density towards itself", "light_path/light_path.glsl",
+             "path.sums = sums_behind(e, drawn.direction, drawn.pdf, reverse);",
+             "path.sums = sums_behind(e, drawn.direction, drawn.pdf, drawn.pdf);"),
+    Mutation("beams widened by the index in place of its square", "mis/path_sums.glsl", "(index * index * max(",
+             "(index * max("),
+    Mutation("shading normals without their adjoint", "light_path/light_path.glsl",
+             "vec3 reflected = bsdf_cosine(seen.surface, seen.bsdf, seen.wo, e.wo);",
+             "vec3 reflected = bsdf_cosine(e.surface, e.bsdf, e.wo, seen.wo) * face_cosine(e, e.wo) / face_cosine(e, seen.wo);"),
+    Mutation("a camera as sensitive at its rim as in its middle", "geometry/camera.glsl",
+             "view.distance / (area * depth * depth * depth)", "1.0 / (area * view.distance * view.distance)"),
+    Mutation("light paths that survive roulette for nothing", "light_path/light_path.glsl", "path.flux /= survival;", ""),
+    Mutation("met lamps weighed as if no light path found them", "light/nee.glsl",
+             "weight_beside(sampled / path_pdf, chain * lamp_emission_pdf(s.light))",
+             "weight_beside(sampled / path_pdf, 0.0)"),
+    Mutation("light samples weighed as if no light path made them", "light/nee.glsl",
+             "return weight_beside(met, light_paths_over(e, light));", "return weight_beside(met, 0.0);"),
+    Mutation("light paths weighed as if no light sample made them", "light_path/light_path.glsl",
+             "if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);\n  float reverse = e.sums.chain > 0.0 ? "
+             "direction_pdf(seen, e.wo) : 0.0;\n  float weight", "float reverse = e.sums.chain > 0.0 ? "
+             "direction_pdf(seen, e.wo) : 0.0;\n  float weight"),
+    Mutation("the constant environment's light paths left out of weights", "light/nee.glsl",
+             "chain * parameters.environment_share * (0.25 / PI) * parameters.disk_pdf", "0.0"),
+    Mutation("light paths of ranged lights that know no range", "light_path/light_path.glsl",
+             "if (is_punctual(kind)) path.flux *= punctual_window(path.light, kind, met.hit.t);", ""),
+    Mutation("connections through glass that absorb nothing", "light_path/light_path.glsl",
+             "brought *= left_after(medium_towards(e, view.direction), view.distance);", ""),
+    Mutation("lamps in glass that shine as in air", "light_path/light_path.glsl",
+             "if (e.surface.back) path.flux *= left_after(absorption_of(e.surface.material).rgb, path.way);", ""),
+    Mutation("lamps that shine from both faces, each as if alone", "light_path/start.glsl",
+             "emission_choice(light) * triangle.edge2.w * emitting_side(triangle) / PI;",
+             "emission_choice(light) * triangle.edge2.w / PI;"),
+    Mutation("mirrors whose chance is forgotten by weights", "mis/path_sums.glsl",
+             "float ratio = probability > 0.0 ? reverse_probability / probability : 0.0;", "float ratio = 1.0 / probability;"),
+    Mutation("splats that stay for the next frame", "passes/accumulate.comp",
+             "splats[index] = PixelSplat(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));", ""),
+    Mutation("splats without their carry", "light_path/splat.glsl", "(before + low < before ? 1u : 0u)", "0u"),
+]
