@@ -76,6 +76,7 @@ class Sums {
 }  // namespace
 
 struct Inspection::State {
+  // `wanted`: without light paths, since what is compared is what a single path of the camera finds.
   State(const gpu::Context& context, const Scene& scene, const RenderSettings& wanted)
       : settings(wanted),
         buffers(scene, build_bvh(scene, wanted.bvh), truth_settings(wanted).lights),
@@ -106,7 +107,9 @@ struct Inspection::State {
 
 Inspection::Inspection(const gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   check_limits(context, scene, settings);
-  state_ = std::make_unique<State>(context, scene, settings);
+  RenderSettings of_camera = settings;
+  of_camera.light_paths = LightPaths::none;
+  state_ = std::make_unique<State>(context, scene, of_camera);
 }
 
 Inspection::~Inspection() = default;

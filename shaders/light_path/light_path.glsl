@@ -74,6 +74,13 @@ float reaching_camera(Event e, CameraView view, inout Tally tally) {
   return transmittance(origin, ray_origin(s, view.direction) - origin, tally.rays);
 }
 
+// `density`: that of the camera's rays at the event, per area, over the number of light paths.
+float weight_at_camera(LightPath path, Event e, Event seen, uint bounce, float t, float density) {
+  if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);
+  float reverse = e.sums.chain > 0.0 ? direction_pdf(seen, e.wo) : 0.0;
+  return weight_beside(density * drawn_from_behind(e, reverse), 0.0);
+}
+
 void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
   CameraView view = camera_view(e.surface.position);
   if (!view.is_in_image) return;
@@ -85,9 +92,7 @@ void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
   brought *= left_after(medium_towards(e, view.direction), view.distance);
 #endif
   if (brought == vec3(0.0)) return;
-  if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);
-  float reverse = e.sums.chain > 0.0 ? direction_pdf(seen, e.wo) : 0.0;
-  float weight = weight_beside(density * drawn_from_behind(e, reverse), 0.0);
+  float weight = weight_at_camera(path, e, seen, bounce, t, density);
   add_splat(view.pixel, brought * (weight * reaching_camera(e, view, path.tally)), path.tally);
   ++path.splats;
 }

@@ -4,8 +4,8 @@ from mutation import Mutation
 
 LIGHT_PATH_MUTATIONS = [
     Mutation("the camera's density at a light path's event left out", "light_path/light_path.glsl",
-             "float weight = weight_beside(density * drawn_from_behind(e, reverse), 0.0);",
-             "float weight = weight_beside(density * drawn_from_behind(e, 0.0), 0.0);"),
+             "return weight_beside(density * drawn_from_behind(e, reverse), 0.0);",
+             "return weight_beside(density * drawn_from_behind(e, 0.0), 0.0);"),
     Mutation("a light path's density at the camera's event left out", "path/trace.glsl",
              "if (is_chained) reverse = bsdf_pdf(seen, e.wo);", ""),
     Mutation("the camera's density towards itself", "light_path/light_path.glsl",
@@ -26,8 +26,8 @@ LIGHT_PATH_MUTATIONS = [
              "return weight_beside(met, light_paths_over(e, light));", "return weight_beside(met, 0.0);"),
     Mutation("light paths weighed as if no light sample made them", "light_path/light_path.glsl",
              "if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);\n  float reverse = e.sums.chain > 0.0 ? "
-             "direction_pdf(seen, e.wo) : 0.0;\n  float weight", "float reverse = e.sums.chain > 0.0 ? "
-             "direction_pdf(seen, e.wo) : 0.0;\n  float weight"),
+             "direction_pdf(seen, e.wo) : 0.0;\n  return", "float reverse = e.sums.chain > 0.0 ? "
+             "direction_pdf(seen, e.wo) : 0.0;\n  return"),
     Mutation("the constant environment's light paths left out of weights", "light/nee.glsl",
              "chain * parameters.environment_share * (0.25 / PI) * parameters.disk_pdf", "0.0"),
     Mutation("light paths of ranged lights that know no range", "light_path/light_path.glsl",

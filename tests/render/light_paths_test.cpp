@@ -1,0 +1,248 @@
+// Paths from the lights: closed forms, agreement with the camera's own paths whatever the table holds, the
+// same bits. What one path brings to several pixels ties these together, so the noise of a block comes from
+// the spread of seeds.
+#include "engine/core/check.h"
+#include "engine/scene/analytic.h"
+#include "tests/render/comparison.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace qtrace::test {
+namespace {
+
+constexpr int kSide = 32;
+constexpr int kBlockSide = 16;
+constexpr int kBlocksOfImage = (kSide / kBlockSide) * (kSide / kBlockSide);
+constexpr int kSeeds = 12;
+
+RenderSettings light_path_settings(Nee nee, int max_bounces) {
+  RenderSettings settings = square_settings(kSide, max_bounces, nee);
+  settings.light_paths = LightPaths::trace;
+  settings.russian_roulette_start = max_bounces;
+  settings.rl.sites_per_object = 20;
+  settings.rl.bins_theta = settings.rl.bins_phi = 6;
+  settings.rl.trial_frames = 0;
+  return settings;
+}
+
+double block_mean(const RadianceImage& image, int block) {
+  const int row = kSide / kBlockSide;
+  return block_estimate(image, block % row * kBlockSide, block / row * kBlockSide, kBlockSide).mean;
+}
+
+using Change = std::function<void(Tracer&)>;
+
+// Of each block, by the seeds.
+std::vector<Estimate> blocks_over_seeds(const Scene& scene, RenderSettings settings, int frames,
+                                        const Change& change = {}) {
+  std::vector<double> sums(kBlocksOfImage, 0.0), squares(kBlocksOfImage, 0.0);
+  for (int i = 0; i < kSeeds; ++i, ++settings.seed) {
+    Tracer tracer(device(), scene, settings);
+    if (change) change(tracer);
+    const Rendering r = render(tracer, frames);
+    EXPECT_EQ(r.non_finite, 0U);
+    for (int block = 0; block < kBlocksOfImage; ++block) {
+      const double mean = block_mean(r.image, block);
+      sums[static_cast<std::size_t>(block)] += mean;
+      squares[static_cast<std::size_t>(block)] += mean * mean;
+    }
+  }
+  std::vector<Estimate> estimates;
+  for (std::size_t block = 0; block < kBlocksOfImage; ++block) {
+    const double mean = sums[block] / kSeeds;
+    const double variance = std::max(0.0, squares[block] / kSeeds - mean * mean) / (kSeeds - 1);
+    estimates.push_back({mean, variance});
+  }
+  return estimates;
+}
+
+double t_threshold(std::size_t comparisons) {
+  return boost::math::quantile(boost::math::complement(
+      boost::math::students_t(kSeeds - 1), kFalseAlarm / (2.0 * static_cast<double>(comparisons))));
+}
+
+void expect_blocks(const std::vector<Estimate>& found, const std::vector<Estimate>& truth,
+                   std::size_t comparisons) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT(z_score(found[i], truth[i]), t_threshold(comparisons * kBlocksOfImage))
+        << "block " << i << ": " << found[i].mean << " +- " << std::sqrt(found[i].variance) << " against "
+        << truth[i].mean << " +- " << std::sqrt(truth[i].variance);
+  }
+}
+
+std::vector<Estimate> camera_blocks(const Scene& scene, RenderSettings settings, int frames) {
+  settings.light_paths = LightPaths::none;
+  settings.sampler = Sampler::bsdf;
+  settings.nee = Nee::one_ray;
+  settings.seed = 900;
+  const Rendering r = render(scene, settings, frames);
+  std::vector<Estimate> estimates;
+  const int row = kSide / kBlockSide;
+  for (int block = 0; block < kBlocksOfImage; ++block)
+    estimates.push_back(
+        block_estimate(r.image, block % row * kBlockSide, block / row * kBlockSide, kBlockSide));
+  return estimates;
+}
+
+// A floor of 8 x 8 seen from above, which the camera sees nothing else of.
+Scene floor_seen_from_above(bool is_flat) {
+  Scene scene = lit_floor(0.6F, 12, 1, 2).scene;
+  scene.camera = look_at({3, 1.5F, 3}, {1, 0, 1}, 0.7F);
+  if (is_flat) scene.camera.film_height = 1.2F;
+  return scene;
+}
+
+// The mean over a block of the closed form, at the points that the camera sees.
+std::vector<Estimate> floor_truth(const Scene& scene, const RenderSettings& settings) {
+  const LitFloor floor = lit_floor(0.6F, 12, 1, 2);
+  RenderSettings fine = settings;
+  fine.light_paths = LightPaths::none;
+  fine.width = fine.height = 8 * kSide;
+  const FirstHitImage hits = Tracer(device(), scene, fine).first_hit();
+  std::vector<Estimate> truth(kBlocksOfImage);
+  const int row = kSide / kBlockSide;
+  for (int y = 0; y < fine.height; ++y) {
+    for (int x = 0; x < fine.width; ++x) {
+      const glm::vec3 p = hits.position[static_cast<std::size_t>(y * fine.width + x)];
+      const int block = y / (8 * kBlockSide) * row + x / (8 * kBlockSide);
+      truth[static_cast<std::size_t>(block)].mean +=
+          floor.radiance(p.x, p.z) / (64.0 * kBlockSide * kBlockSide);
+    }
+  }
+  return truth;
+}
+
+TEST(LightPaths, AFloorUnderALampInClosedForm) {
+  for (const bool is_flat : {false, true}) {
+    const Scene scene = floor_seen_from_above(is_flat);
+    for (const Nee nee : {Nee::none, Nee::one_ray}) {
+      SCOPED_TRACE(testing::Message() << (is_flat ? "parallel rays, " : "a pinhole, ") << enum_name(nee));
+      const RenderSettings settings = light_path_settings(nee, 1);
+      expect_blocks(blocks_over_seeds(scene, settings, 8), floor_truth(scene, settings), 4);
+    }
+  }
+}
+
+TEST(LightPaths, AFurnaceOfLamps) {
+  const Scene scene = furnace_box(0.7F, 2);
+  for (const Nee nee : {Nee::none, Nee::one_ray}) {
+    for (const Sampler sampler : {Sampler::bsdf, Sampler::rl}) {
+      RenderSettings settings = light_path_settings(nee, 6);
+      settings.sampler = sampler;
+      const std::vector<Estimate> truth(kBlocksOfImage, {furnace_radiance(0.7, 2, 6), 0});
+      expect_blocks(blocks_over_seeds(scene, settings, 4), truth, 4);
+    }
+  }
+}
+
+// A floor under a sky that is the same everywhere.
+TEST(LightPaths, AConstantEnvironment) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5F))};
+  add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 0);
+  scene.camera = look_at({0, 2, 0.1F}, {0, 0, 0}, 0.5F);
+  RenderSettings settings = light_path_settings(Nee::none, 1);
+  settings.environment = {3, 3, 3};
+  const std::vector<Estimate> truth(kBlocksOfImage, {1.5, 0});
+  expect_blocks(blocks_over_seeds(scene, settings, 8), truth, 1);
+}
+
+TEST(LightPaths, FrozenTablesChangeTheVarianceAlone) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = light_path_settings(Nee::one_ray, 3);
+  settings.environment = {0.3, 0.2, 0.1};
+  const std::vector<Estimate> truth = camera_blocks(scene, settings, 256);
+  settings.sampler = Sampler::rl;
+  for (const bool is_random : {false, true}) {
+    SCOPED_TRACE(is_random ? "random" : "zero");
+    expect_blocks(blocks_over_seeds(scene, settings, 8,
+                                    [&](Tracer& tracer) {
+                                      tracer.set_learning(false);
+                                      std::vector<float> values(tracer.table()->values().size(), 0.0F);
+                                      std::mt19937 random(7);
+                                      std::uniform_real_distribution<float> uniform;
+                                      for (float& value : values)
+                                        value = is_random ? std::pow(10.0F, 4 * uniform(random) - 2) : 0;
+                                      tracer.table()->set_values(values);
+                                    }),
+                  truth, 2);
+  }
+}
+
+// While it learns, with Sobol' points, learned lights, roulette, and another number of paths than of pixels.
+TEST(LightPaths, EverythingAtOnce) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = light_path_settings(Nee::one_ray, 5);
+  const std::vector<Estimate> truth = camera_blocks(scene, settings, 256);
+  settings.sampler = Sampler::rl;
+  settings.random = RandomNumbers::sobol;
+  settings.lights = LightChoice::learned;
+  settings.russian_roulette_start = 1;
+  for (const int paths : {500, 3000}) {
+    settings.light_path_count = paths;
+    expect_blocks(blocks_over_seeds(scene, settings, 8), truth, 2);
+  }
+}
+
+TEST(LightPaths, TheSameSeedGivesTheSameBits) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = light_path_settings(Nee::one_ray, 4);
+  settings.sampler = Sampler::rl;
+  Tracer whole(device(), scene, settings);
+  render(whole, 3);
+  Tracer later(device(), scene, settings);
+  later.restore(whole.state());
+  render(whole, 3);
+  render(later, 3);
+  const RadianceImage once = render(scene, settings, 6).image;
+  EXPECT_EQ(once.mean, whole.radiance().mean);
+  EXPECT_EQ(later.radiance().mean, whole.radiance().mean);
+  EXPECT_EQ(later.radiance().variance, whole.radiance().variance);
+}
+
+TEST(LightPaths, AreCounted) {
+  const Scene scene = shipped("cornell_box.glb");
+  RenderSettings settings = light_path_settings(Nee::one_ray, 4);
+  settings.light_path_count = 777;
+  Tracer tracer(device(), scene, settings);
+  render(tracer, 2);
+  const FrameCounters counters = tracer.last_frame_counters();
+  EXPECT_GT(counters.splats, 100U);
+  EXPECT_LT(counters.splats, 4U * 777U);
+  EXPECT_GT(counters.light_rays, counters.splats + 777U);
+  EXPECT_GT(counters.rays, counters.light_rays);
+  settings.light_paths = LightPaths::none;
+  Tracer without(device(), scene, settings);
+  render(without, 2);
+  EXPECT_EQ(without.last_frame_counters().light_rays, 0U);
+  EXPECT_EQ(without.last_frame_counters().splats, 0U);
+}
+
+void expect_refused(const Scene& scene, const RenderSettings& settings, const std::string& reason) {
+  try {
+    render(scene, settings, 1);
+    FAIL() << "rendered";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+  }
+}
+
+TEST(LightPaths, AreRefusedWhereTheirWeightsWouldBeWrong) {
+  const Scene scene = shipped("cornell_box.glb");
+  RenderSettings settings = light_path_settings(Nee::two_ray, 4);
+  expect_refused(scene, settings, "set nee to one_ray");
+  settings.nee = Nee::one_ray;
+  settings.sampler = Sampler::rl;
+  settings.rl.guided_bounces = 3;
+  expect_refused(scene, settings, "raise it to 4 or more");
+}
+
+}  // namespace
+}  // namespace qtrace::test
