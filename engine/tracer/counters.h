@@ -38,7 +38,7 @@ struct FrameCounters {
   std::uint64_t cell_fallbacks = 0;     // of these, hits for which no site qualified: BSDF sampling alone
   std::uint64_t non_finite = 0;         // samples with a NaN or an infinity
   std::uint64_t table_updates = 0;      // targets gathered for the Q-table
-  std::uint64_t saturated_updates = 0;  // targets clamped to, or lost at, the fixed-point limit
+  std::uint64_t saturated_updates = 0;  // targets and splats clamped to, or lost at, the fixed-point limit
   std::uint64_t fireflies = 0;          // samples brighter than their pixel's threshold
   std::uint64_t clamped_samples = 0;    // samples with a channel above clamp_radiance
   std::uint64_t light_rays = 0;         // rays of paths from the lights, those to the camera included

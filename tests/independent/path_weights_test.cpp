@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ namespace qtrace::independent {
 namespace {
 
 constexpr int kSize = 32;
-constexpr std::uint32_t kPaths = 1 << 13;
+constexpr std::uint32_t kPaths = 3 << 13;
+constexpr std::size_t kMostEvents = 3;
 constexpr float kNoPath = -1;
 constexpr float kTolerance = 1e-5F;
 
@@ -139,7 +141,8 @@ vec3 weights_of(uint index, uint count) {
 
 class PathWeights : public testing::TestWithParam<const char*> {};
 
-std::vector<glm::vec4> weights_of(const Scene& scene, const RenderSettings& settings, int events) {
+// Of a third of all paths each has one event, two and three.
+std::vector<glm::vec4> weights_of(const Scene& scene, const RenderSettings& settings) {
   Tracer tracer(test::device(), scene, settings);
   test::render(tracer, 6);  // teaches the table
   tracer.table();           // binds all that the probe reads
@@ -148,8 +151,21 @@ std::vector<glm::vec4> weights_of(const Scene& scene, const RenderSettings& sett
       "vec4",
       {"geometry/camera.glsl", "light_path/light_path.glsl", "path/path.glsl", "path/trace.glsl",
        "path/state.glsl", "sampling/random.glsl"},
-      kFunctions, "result = vec4(weights_of(index, " + std::to_string(events) + "u), 0.0);", kPaths, defines);
+      kFunctions, "result = vec4(weights_of(index, 1u + index % MOST_EVENTS), 0.0);", kPaths, defines);
 }
+
+struct Found {
+  int paths = 0;
+  int by_light = 0;  // with a weight of a tenth or more for the light path
+  float worst = 0;
+
+  void add(const glm::vec4& w) {
+    if (w.x == kNoPath) return;
+    ++paths;
+    if (w.z > 0.1F) ++by_light;
+    worst = std::max(worst, std::abs(w.x + w.y + w.z - 1));
+  }
+};
 
 TEST_P(PathWeights, SumToOne) {
   const Scene scene = feature_room(GetParam());
@@ -160,27 +176,21 @@ TEST_P(PathWeights, SumToOne) {
       settings.light_paths = LightPaths::trace;
       settings.rl.trial_frames = 0;
       settings.rl.sites_per_object = 40;
-      for (int events = 1; events <= 3; ++events) {
+      std::array<Found, kMostEvents> found;
+      std::size_t index = 0;
+      for (const glm::vec4& w : weights_of(scene, settings)) found[index++ % kMostEvents].add(w);
+      for (std::size_t i = 0; i < kMostEvents; ++i) {
         SCOPED_TRACE(testing::Message()
-                     << enum_name(sampler) << " + " << enum_name(nee) << ", " << events << " events");
-        int paths = 0, by_light = 0;
-        float worst = 0;
-        for (const glm::vec4& w : weights_of(scene, settings, events)) {
-          if (w.x == kNoPath) continue;
-          ++paths;
-          if (w.z > 0.1F) ++by_light;
-          worst = std::max(worst, std::abs(w.x + w.y + w.z - 1));
-        }
-        EXPECT_GT(paths, 500);
-        EXPECT_GT(by_light, paths / 100);
-        EXPECT_LT(worst, kTolerance);
+                     << enum_name(sampler) << " + " << enum_name(nee) << ", " << i + 1 << " events");
+        EXPECT_GT(found[i].paths, 500);
+        EXPECT_GT(found[i].by_light, found[i].paths / 100);
+        EXPECT_LT(found[i].worst, kTolerance);
       }
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, PathWeights,
-                         testing::Values("plastic", "normals", "mirror", "thin", "rough_glass", "coat"),
+INSTANTIATE_TEST_SUITE_P(Rooms, PathWeights, testing::Values("normals", "mirror", "rough_glass"),
                          [](const auto& room) { return std::string(room.param); });
 
 }  // namespace
