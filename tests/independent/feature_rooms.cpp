@@ -231,6 +231,21 @@ Scene in_glass() {
   return scene;
 }
 
+// The lamp in a block of smooth glass that absorbs: all light leaves a denser medium before it meets
+// anything.
+Scene lamp_in_glass() {
+  Scene scene = room();
+  const auto block = static_cast<std::uint32_t>(scene.materials.size());
+  scene.materials.push_back(volume(0));
+  const glm::vec3 lo(-0.7F, 0.6F, -0.7F), x(1.4F, 0, 0), y(0, 0.38F, 0), z(0, 0, 1.4F);
+  // Their front faces look outwards.
+  for (const auto& [corner, u, v] : std::vector<std::array<glm::vec3, 3>>{
+           {{lo, x, z}}, {{lo + y, z, x}}, {{lo, z, y}}, {{lo + x, y, z}}, {{lo, y, x}}, {{lo + z, x, y}}}) {
+    add_quad(scene, corner, u, v, block);
+  }
+  return scene;
+}
+
 Scene unlit() {
   Material m;
   m.base_color = {0.8F, 0.5F, 0.2F};
@@ -270,6 +285,7 @@ Scene feature_room(const std::string& name) {
       {"coat", [] { return coated(0.6F, 0); }},
       {"rough_coat", [] { return coated(1, 0.5F); }},
       {"in_glass", in_glass},
+      {"lamp_in_glass", lamp_in_glass},
       {"unlit", unlit},
       {"sky", [] { return roofless(false); }},
       {"sky_and_lamp", [] { return roofless(true); }},

@@ -10,9 +10,9 @@
 
 namespace qtrace::independent {
 
-inline constexpr std::array kRooms{"textures", "normals", "alpha",       "plastic",      "mirror",
-                                   "thin",     "glass",   "rough_glass", "coat",         "rough_coat",
-                                   "in_glass", "unlit",   "sky",         "sky_and_lamp", "punctual"};
+inline constexpr std::array kRooms{
+    "textures", "normals",    "alpha",    "plastic",       "mirror", "thin", "glass",        "rough_glass",
+    "coat",     "rough_coat", "in_glass", "lamp_in_glass", "unlit",  "sky",  "sky_and_lamp", "punctual"};
 
 // A box with a lamp below its ceiling (a roofless one under a sky, or one without a lamp where the name says
 // so) and a ball.
