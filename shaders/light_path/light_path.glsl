@@ -81,6 +81,7 @@ float weight_at_camera(LightPath path, Event e, Event seen, uint bounce, float t
   return weight_beside(density * drawn_from_behind(e, reverse), 0.0);
 }
 
+// The camera stands in air, and nothing on the way to it is passed: no volume absorbs there.
 void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
   CameraView view = camera_view(e.surface.position);
   if (!view.is_in_image) return;
@@ -88,9 +89,6 @@ void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
   vec3 reflected = bsdf_cosine(seen.surface, seen.bsdf, view.direction, e.wo);
   float density = view.density * face_cosine(e, view.direction) / float(parameters.light_paths);
   vec3 brought = path.flux * reflected * (density / face_cosine(e, e.wo));
-#ifdef HAS_ABSORPTION
-  brought *= left_after(medium_towards(e, view.direction), view.distance);
-#endif
   if (brought == vec3(0.0)) return;
   float weight = weight_at_camera(path, e, seen, bounce, t, density);
   add_splat(view.pixel, brought * (weight * reaching_camera(e, view, path.tally)), path.tally);

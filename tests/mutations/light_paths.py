@@ -32,8 +32,6 @@ LIGHT_PATH_MUTATIONS = [
              "chain * parameters.environment_share * (0.25 / PI) * parameters.disk_pdf", "0.0"),
     Mutation("light paths of ranged lights that know no range", "light_path/light_path.glsl",
              "if (is_punctual(kind)) path.flux *= punctual_window(path.light, kind, met.hit.t);", ""),
-    Mutation("connections through glass that absorb nothing", "light_path/light_path.glsl",
-             "brought *= left_after(medium_towards(e, view.direction), view.distance);", ""),
     Mutation("lamps in glass that shine as in air", "light_path/light_path.glsl",
              "if (e.surface.back) path.flux *= left_after(absorption_of(e.surface.material).rgb, path.way);", ""),
     Mutation("lamps that shine from both faces, each as if alone", "light_path/start.glsl",
