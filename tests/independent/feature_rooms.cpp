@@ -201,7 +201,7 @@ Scene lit_without_surface() {
   PunctualLight point, spot, sun;
   point.position = {-0.6F, 0.5F, 0.4F};
   point.intensity = {0.5F, 0.4F, 0.3F};
-  point.range = 3;
+  point.range = 1.6F;
   spot.kind = PunctualLight::Kind::spot;
   spot.position = {0.5F, 0.8F, 0.5F};
   spot.direction = glm::normalize(glm::vec3(-0.3F, -1, -0.5F));
