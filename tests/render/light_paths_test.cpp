@@ -8,10 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include <boost/math/distributions/students_t.hpp>
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 namespace qtrace::test {
@@ -99,21 +102,21 @@ Scene floor_seen_from_above(bool is_flat) {
   return scene;
 }
 
-// The mean over a block of the closed form, at the points that the camera sees.
-std::vector<Estimate> floor_truth(const Scene& scene, const RenderSettings& settings) {
-  const LitFloor floor = lit_floor(0.6F, 12, 1, 2);
-  RenderSettings fine = settings;
-  fine.light_paths = LightPaths::none;
-  fine.width = fine.height = 8 * kSide;
-  const FirstHitImage hits = Tracer(device(), scene, fine).first_hit();
+// The mean over each block of a closed form of the radiance at the points that the camera sees.
+std::vector<Estimate> truth_of(const Scene& scene, RenderSettings settings,
+                               const std::function<double(const glm::vec3&)>& radiance) {
+  constexpr int kFiner = 8;
+  settings.light_paths = LightPaths::none;
+  settings.nee = Nee::one_ray;
+  settings.width = settings.height = kFiner * kSide;
+  const FirstHitImage hits = Tracer(device(), scene, settings).first_hit();
   std::vector<Estimate> truth(kBlocksOfImage);
   const int row = kSide / kBlockSide;
-  for (int y = 0; y < fine.height; ++y) {
-    for (int x = 0; x < fine.width; ++x) {
-      const glm::vec3 p = hits.position[static_cast<std::size_t>(y * fine.width + x)];
-      const int block = y / (8 * kBlockSide) * row + x / (8 * kBlockSide);
-      truth[static_cast<std::size_t>(block)].mean +=
-          floor.radiance(p.x, p.z) / (64.0 * kBlockSide * kBlockSide);
+  const int side = kFiner * kBlockSide;
+  for (int y = 0; y < settings.height; ++y) {
+    for (int x = 0; x < settings.width; ++x) {
+      const glm::vec3 p = hits.position[static_cast<std::size_t>(y * settings.width + x)];
+      truth[static_cast<std::size_t>(y / side * row + x / side)].mean += radiance(p) / (1.0 * side * side);
     }
   }
   return truth;
@@ -125,9 +128,58 @@ TEST(LightPaths, AFloorUnderALampInClosedForm) {
     for (const Nee nee : {Nee::none, Nee::one_ray}) {
       SCOPED_TRACE(testing::Message() << (is_flat ? "parallel rays, " : "a pinhole, ") << enum_name(nee));
       const RenderSettings settings = light_path_settings(nee, 1);
-      expect_blocks(blocks_over_seeds(scene, settings, 8), floor_truth(scene, settings), 4);
+      const LitFloor floor = lit_floor(0.6F, 12, 1, 2);
+      const auto truth =
+          truth_of(scene, settings, [&](const glm::vec3& p) { return floor.radiance(p.x, p.z); });
+      expect_blocks(blocks_over_seeds(scene, settings, 8), truth, 4);
     }
   }
+}
+
+// So many light paths that nearly all weight is theirs.
+TEST(LightPaths, LightsWithoutASurfaceInClosedForm) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5F))};
+  add_quad(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0);
+  scene.camera = look_at({0, 4, 0.1F}, {0, 0, 0}, 0.8F);
+  PunctualLight point, spot, sun;
+  point.position = {0.5F, 1, 0.3F};
+  point.intensity = glm::vec3(3);
+  point.range = 2;
+  spot.kind = PunctualLight::Kind::spot;
+  spot.position = {-0.5F, 2, 0};
+  spot.direction = {0, -1, 0};
+  spot.intensity = glm::vec3(5);
+  spot.inner_cone_angle = 0.1F;
+  spot.outer_cone_angle = 0.6F;
+  sun.kind = PunctualLight::Kind::directional;
+  sun.direction = glm::normalize(glm::vec3(1, -1, 0.5F));
+  sun.intensity = glm::vec3(2);
+  const auto from = [](const PunctualLight& light, const glm::vec3& p) {
+    const glm::dvec3 way = glm::dvec3(light.position) - glm::dvec3(p);
+    const double d = glm::length(way);
+    return double{light.intensity.x} * (way.y / d) / (d * d) *
+           std::clamp(1 - std::pow(d / double{light.range}, 4), 0.0, 1.0);
+  };
+  const auto in_cone = [&](const glm::vec3& p) {
+    const glm::dvec3 way = glm::normalize(glm::dvec3(p) - glm::dvec3(spot.position));
+    const double inner = std::cos(double{spot.inner_cone_angle});
+    const double outer = std::cos(double{spot.outer_cone_angle});
+    const double part = std::clamp((-way.y - outer) / (inner - outer), 0.0, 1.0);
+    return part * part;
+  };
+  RenderSettings settings = light_path_settings(Nee::one_ray, 1);
+  settings.light_path_count = 1 << 15;
+  const auto expect = [&](const PunctualLight& light,
+                          const std::function<double(const glm::vec3&)>& irradiance) {
+    scene.lights = {light};
+    const auto truth =
+        truth_of(scene, settings, [&](const glm::vec3& p) { return 0.5 * irradiance(p) / std::numbers::pi; });
+    expect_blocks(blocks_over_seeds(scene, settings, 2), truth, 3);
+  };
+  expect(point, [&](const glm::vec3& p) { return from(point, p); });
+  expect(spot, [&](const glm::vec3& p) { return from(spot, p) * in_cone(p); });
+  expect(sun, [&](const glm::vec3&) { return -2.0 * double{sun.direction.y}; });
 }
 
 TEST(LightPaths, AFurnaceOfLamps) {
