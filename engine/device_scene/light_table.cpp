@@ -90,8 +90,19 @@ double add_light(LightTable& table, const Scene& scene, const Emitters& emitters
   return power;
 }
 
+SceneSphere scene_sphere(const Scene& scene) {
+  Bounds bounds;
+  for (const Triangle& t : scene.triangles) bounds.add(bounds_of(t));
+  for (const PunctualLight& light : scene.lights) {
+    if (light.kind != PunctualLight::Kind::directional) bounds.add(light.position);
+  }
+  if (bounds.lo.x > bounds.hi.x) return {};
+  const glm::dvec3 lo(bounds.lo), hi(bounds.hi);
+  return {0.5 * (lo + hi), 0.5 * glm::length(hi - lo)};
+}
+
 void add_lights_without_surface(LightTable& table, const Scene& scene, std::vector<double>& powers) {
-  const double radius = scene_sphere(scene).radius;
+  const double radius = table.sphere.radius;
   const auto add = [&](const Light& light, double power, double radiance) {
     table.lights.push_back(light);
     powers.push_back(power);
@@ -134,17 +145,6 @@ double power_of_environment(double mean_radiance, double scene_radius) {
   return 4 * mean_radiance * scene_radius * scene_radius;
 }
 
-SceneSphere scene_sphere(const Scene& scene) {
-  Bounds bounds;
-  for (const Triangle& t : scene.triangles) bounds.add(bounds_of(t));
-  for (const PunctualLight& light : scene.lights) {
-    if (light.kind != PunctualLight::Kind::directional) bounds.add(light.position);
-  }
-  if (bounds.lo.x > bounds.hi.x) return {};
-  const glm::dvec3 lo(bounds.lo), hi(bounds.hi);
-  return {0.5 * (lo + hi), 0.5 * glm::length(hi - lo)};
-}
-
 float ray_offset(const Triangle& triangle) {
   const auto& p = triangle.position;
   const glm::vec3 reach = glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2])));
@@ -159,6 +159,7 @@ LightTable build_light_table(const Scene& scene, LightChoice choice) {
   for (const auto& triangles : connected_groups(scene, find_emitters(scene, emitters))) {
     powers.push_back(add_light(table, scene, emitters, triangles));
   }
+  table.sphere = scene_sphere(scene);
   add_lights_without_surface(table, scene, powers);
   set_choices(table, choice, powers);
   return table;

@@ -9,6 +9,12 @@
 
 namespace qtrace::gpu {
 
+// About the scene's triangles and lights that have a place.
+struct SceneSphere {
+  glm::dvec3 centre{0};
+  double radius = 1;
+};
+
 struct LightTable {
   // Connected emitting surfaces, in the scene's order; then lights without a surface; then the environment's
   // image.
@@ -18,19 +24,13 @@ struct LightTable {
   bool has_sky = false;           // the last light is an image of the environment that is not black
   float brightest = 0;            // mean radiance of the brightest
   double power = 0;               // of all of them: area times mean radiance, summed over the faces that emit
+  SceneSphere sphere;
 };
 
 // A light is chosen in proportion to its power (of a surface area x mean radiance, twice that where both
 // faces emit), or each alike; a surface's triangles in proportion to theirs. `choice`: learned starts from
 // power.
 LightTable build_light_table(const Scene& scene, LightChoice choice);
-
-// About the scene's triangles and lights that have a place.
-struct SceneSphere {
-  glm::dvec3 centre{0};
-  double radius = 1;
-};
-SceneSphere scene_sphere(const Scene& scene);
 
 // In the same units, of an environment of this mean radiance about a scene of this radius.
 double power_of_environment(double mean_radiance, double scene_radius);

@@ -73,10 +73,9 @@ SceneFeatures find_features(const Scene& scene, const LightTable& lights) {
     features.sky = {scene.environment->width, scene.environment->height};
     features.sky_turn = scene.environment->rotation / (2 * std::numbers::pi_v<float>);
   }
-  const SceneSphere sphere = scene_sphere(scene);
-  features.reach = static_cast<float>(kReach * sphere.radius);
-  features.centre = glm::vec3(sphere.centre);
-  features.radius = static_cast<float>(sphere.radius);
+  features.reach = static_cast<float>(kReach * lights.sphere.radius);
+  features.centre = glm::vec3(lights.sphere.centre);
+  features.radius = static_cast<float>(lights.sphere.radius);
   features.power = static_cast<float>(lights.power);
   features.lights = static_cast<uint>(lights.lights.size());
   features.brightest = lights.brightest;

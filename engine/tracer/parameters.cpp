@@ -23,7 +23,8 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   (is_flat ? p.film_right : p.camera_right) = m[0] * (up * aspect);
   (is_flat ? p.film_up : p.camera_up) = m[1] * up;
   p.camera_forward = -m[2];
-  const float brightest = std::max(features.brightest, real((e[0] + e[1] + e[2]) / 3));
+  const double mean_environment = (e[0] + e[1] + e[2]) / 3;
+  const float brightest = std::max(features.brightest, real(mean_environment));
   p.environment = glm::vec3(real(e[0]), real(e[1]), real(e[2]));
   p.inverse_brightest = brightest > 0 ? 1 / brightest : 0;
   if (cells != nullptr) {
@@ -56,7 +57,7 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.light_paths = whole(light_paths_of_a_frame(settings));
   p.scene_centre = features.centre;
   p.scene_radius = features.radius;
-  const double sky = gpu::power_of_environment((e[0] + e[1] + e[2]) / 3, features.radius);
+  const double sky = gpu::power_of_environment(mean_environment, features.radius);
   p.disk_pdf = real(1 / (std::numbers::pi * features.radius * features.radius));
   p.pixel_area = 4 * up * up * aspect / static_cast<float>(settings.width * settings.height);
   p.environment_share = sky > 0 ? real(sky / (sky + features.power)) : 0.0F;

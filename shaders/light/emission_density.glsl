@@ -35,9 +35,8 @@ float punctual_direction_pdf(uint light, float kind) {
 }
 #endif
 
-// Of a light path that leaves a lamp where a path of the camera meets it, per area and solid angle, over the cosine there.
-float lamp_emission_pdf(uint triangle_index) {
-  LightTriangle triangle = light_triangle(triangle_index);
+// Of a light path that leaves a point of a lamp, per area and solid angle, over the cosine there.
+float lamp_emission_pdf(LightTriangle triangle) {
   return emission_choice(triangle.link.y) * triangle.edge2.w * emitting_side(triangle) / PI;
 }
 

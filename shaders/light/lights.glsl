@@ -95,28 +95,42 @@ vec3 light_radiance(LightTriangle light, vec3 direction, vec2 b) {
 #endif
 }
 
+struct LampPoint {
+  LightTriangle triangle;
+  vec2 place;  // what its second and third corner count for
+  vec3 position;
+};
+
+// On a light with a surface: one of its triangles by power, and a point uniform on it.
+LampPoint sample_lamp_point(uint light, uint triangle_word, uvec2 words) {
+  LampPoint point;
+  point.triangle = light_triangle(choose_triangle(light, triangle_word));
+  float along = to_unit(words.y);
+  point.place = sqrt(to_unit(words.x)) * vec2(1.0 - along, along);
+  point.position = point.triangle.vertex.xyz + point.place.x * point.triangle.edge1.xyz +
+                   point.place.y * point.triangle.edge2.xyz;
+  return point;
+}
+
 // Of the surface of `result.light`.
 void sample_lamp(inout LightSample result, Surface s, uvec4 bits, uint triangle_word) {
-  LightTriangle triangle = light_triangle(choose_triangle(result.light, triangle_word));
-  float root = sqrt(to_unit(bits.y));
-  float along = to_unit(bits.z);
-  vec3 point = triangle.vertex.xyz + root * (1.0 - along) * triangle.edge1.xyz +
-               root * along * triangle.edge2.xyz;
-  vec3 to_point = point - s.position;
+  LampPoint point = sample_lamp_point(result.light, triangle_word, bits.yz);
+  LightTriangle triangle = point.triangle;
+  vec3 to_point = point.position - s.position;
   float t = length(to_point);
   vec3 normal = triangle.normal.xyz;
 
   result.direction = to_point / t;
   float facing = -dot(normal, result.direction);
   bool lit = t > 0.0 && (facing > 0.0 || (facing < 0.0 && triangle.radiance.w != EMITS_FRONT));
-  result.radiance = lit ? light_radiance(triangle, result.direction, root * vec2(1.0 - along, along)) : vec3(0.0);
+  result.radiance = lit ? light_radiance(triangle, result.direction, point.place) : vec3(0.0);
   result.pdf = lit ? result.probability * point_pdf(triangle, t, result.direction) : 0.0;
 #ifdef HAS_LIGHT_PATHS
-  result.arrivals = emission_choice(result.light) / result.probability * lamp_direction_pdf(triangle, facing) / (t * t);
+  result.arrivals = lamp_direction_pdf(triangle, facing) / (t * t);
 #endif
   // The segment starts off the light on the side that is looked at. At its other end it stays off the surface by what the
   // test at t = 1 can round off: that grows with the coordinates of the surface and with the distance.
-  result.origin = point + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
+  result.origin = point.position + (facing < 0.0 ? -triangle.edge1.w : triangle.edge1.w) * normal;
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.segment = ray_origin(s, result.direction) - result.origin;
 #ifdef HAS_ABSORPTION
@@ -131,7 +145,7 @@ void sample_light_of_sky(inout LightSample result, Surface s, uvec4 bits, uint t
   result.radiance = sky_radiance(sky.direction);
   result.pdf = result.probability * sky.pdf;
 #ifdef HAS_LIGHT_PATHS
-  result.arrivals = emission_choice(result.light) / result.probability * parameters.disk_pdf;
+  result.arrivals = parameters.disk_pdf;
 #endif
   result.origin = ray_origin(s, sky.direction);
   result.segment = parameters.reach * sky.direction;
@@ -150,8 +164,8 @@ void sample_punctual(inout LightSample result, Surface s, float kind) {
   result.radiance = t > 0.0 ? punctual_irradiance(result.light, kind, result.direction, t) : vec3(0.0);
   result.pdf = t > 0.0 ? result.probability : 0.0;
 #ifdef HAS_LIGHT_PATHS
-  float starting = kind == LIGHT_DIRECTIONAL ? parameters.disk_pdf : punctual_direction_pdf(result.light, kind) / (t * t);
-  result.arrivals = emission_choice(result.light) / result.probability * starting;
+  result.arrivals =
+      kind == LIGHT_DIRECTIONAL ? parameters.disk_pdf : punctual_direction_pdf(result.light, kind) / (t * t);
 #endif
   s.offset = max(s.offset, OFFSET_FRACTION * t);
   result.origin = s.position + way;
@@ -179,6 +193,9 @@ LightSample sample_light(Surface s, int cell, uvec4 bits, uint triangle_word) {
 #endif
 #else
   sample_lamp(result, s, bits, triangle_word);
+#endif
+#ifdef HAS_LIGHT_PATHS
+  result.arrivals *= emission_choice(result.light) / result.probability;
 #endif
   return result;
 }

@@ -51,9 +51,7 @@ float weight_beside(float other, float third) {
 
 // Density of the light paths that make a path with this light sample, over its own.
 float light_paths_over(Event e, LightSample light) {
-  float reverse = 0.0;
-  if (e.sums.chain > 0.0) reverse = bsdf_pdf(seen_from(e, light.direction), e.wo);
-  return light.arrivals * face_cosine(e, light.direction) * drawn_from_behind(e, reverse);
+  return light.arrivals * face_cosine(e, light.direction) * drawn_by_light_paths(e, light.direction);
 }
 
 float light_weight(Event e, LightSample light) {
@@ -128,7 +126,7 @@ float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int ce
   if (s.light == NO_LIGHT) return 1.0;
   float sampled = light_pdf(cell, s.light, t, direction);
 #ifdef HAS_LIGHT_PATHS
-  return weight_beside(sampled / path_pdf, chain * lamp_emission_pdf(s.light));
+  return weight_beside(sampled / path_pdf, chain * lamp_emission_pdf(light_triangle(s.light)));
 #else
   return power_heuristic(path_pdf, sampled);
 #endif
@@ -219,7 +217,7 @@ vec3 direct_light(Event e, EventBits bits, inout Tally tally) {
 
 float emission_weight(Surface s, float t, vec3 direction, float path_pdf, int cell, float chain) {
 #ifdef HAS_LIGHT_PATHS
-  return s.light == NO_LIGHT ? 1.0 : weight_beside(0.0, chain * lamp_emission_pdf(s.light));
+  return s.light == NO_LIGHT ? 1.0 : weight_beside(0.0, chain * lamp_emission_pdf(light_triangle(s.light)));
 #else
   return 1.0;
 #endif

@@ -74,11 +74,16 @@ float reaching_camera(Event e, CameraView view, inout Tally tally) {
   return transmittance(origin, ray_origin(s, view.direction) - origin, tally.rays);
 }
 
-// `density`: that of the camera's rays at the event, per area, over the number of light paths.
-float weight_at_camera(LightPath path, Event e, Event seen, uint bounce, float t, float density) {
+// Of the camera's techniques, which reach the event by the direction that `seen` is seen from (path_sums.glsl).
+float drawn_by_camera(LightPath path, Event e, Event seen, uint bounce, float t) {
   if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);
   float reverse = e.sums.chain > 0.0 ? direction_pdf(seen, e.wo) : 0.0;
-  return weight_beside(density * drawn_from_behind(e, reverse), 0.0);
+  return drawn_from_behind(e, reverse);
+}
+
+// `density`: that of the camera's rays at the event, per area, over the number of light paths.
+float weight_at_camera(LightPath path, Event e, Event seen, uint bounce, float t, float density) {
+  return weight_beside(density * drawn_by_camera(path, e, seen, bounce, t), 0.0);
 }
 
 // The camera stands in air, and nothing on the way to it is passed: no volume absorbs there.
@@ -113,9 +118,7 @@ vec3 pass_on(inout LightPath path, Event e, BsdfDraw drawn, uint bounce, float t
   if (drawn.pdf == INFINITY) return pass_by_smooth_lobe(path, e, seen);
 #endif
   vec3 reflected = bsdf_cosine(seen.surface, seen.bsdf, seen.wo, e.wo);
-  if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);
-  float reverse = e.sums.chain > 0.0 ? direction_pdf(seen, e.wo) : 0.0;
-  path.sums = sums_behind(e, drawn.direction, drawn.pdf, reverse);
+  path.sums = sums_behind(e, drawn.direction, drawn.pdf, drawn_by_camera(path, e, seen, bounce, t));
   return reflected * (face_cosine(e, drawn.direction) / (face_cosine(e, e.wo) * drawn.pdf));
 }
 
@@ -204,14 +207,13 @@ LightPath light_path_from(LightStart start) {
 }
 
 LightPath trace_light_path(RandomKey key) {
-  LightPath path = light_path_from(start_of(start_bits(key.pixel, key.frame, key.seed)));
+  LightPath path = light_path_from(start_of(start_numbers(key.pixel, key.frame, key.seed)));
   uint bounce = 0u;
-  bool going_on = path.flux != vec3(0.0) && parameters.max_bounces > 0u;
+  bool going_on = path.flux != vec3(0.0);
   do {
     if (going_on) {
       ++path.tally.rays;
-      ++path.tally.segments;
-      Meeting met = meet(path.origin, path.direction, light_passing_word(key, bounce));
+      Meeting met = meet(path.origin, path.direction, passing_word(key, BLOCKS_OF_LIGHT_PATHS + bounce));
       path.tally.rays += met.passed;
       going_on = met.hit.triangle != NO_TRIANGLE;
       if (going_on) {

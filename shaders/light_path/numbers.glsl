@@ -26,27 +26,18 @@ uvec2 stratified_pair(uint path, uint frame, uint seed, uint block) {
   return scrambled(uvec4(index, bitfieldReverse(second_dimension(index)), 0u, 0u), seeds).xy;
 }
 
-struct StartBits {
-  uvec4 light;      // light, triangle, point, point
-  uvec2 direction;
+struct StartNumbers {
+  uvec4 light;     // words: light, triangle, point, point
+  vec2 direction;  // in [0, 1)
 };
 
-StartBits start_bits(uint path, uint frame, uint seed) {
-  return StartBits(uvec4(stratified_pair(path, frame, seed, 0u), stratified_pair(path, frame, seed, 1u)),
-                   stratified_pair(path, frame, seed, 2u));
+StartNumbers start_numbers(uint path, uint frame, uint seed) {
+  uvec2 direction = stratified_pair(path, frame, seed, 2u);
+  return StartNumbers(uvec4(stratified_pair(path, frame, seed, 0u), stratified_pair(path, frame, seed, 1u)),
+                      vec2(to_unit(direction.x), to_unit(direction.y)));
 }
 
 // Of the event of that number, from 0.
 EventBits light_event_bits(RandomKey key, uint bounce) {
-  uint block = BLOCKS_OF_LIGHT_PATHS + bounce * BLOCKS_PER_EVENT;
-  return EventBits(random_bits(key, block + BLOCK_DIRECTION), random_bits(key, block + BLOCK_LIGHT),
-                   random_bits(key, block + BLOCK_TWO_RAY), random_bits(key, block + BLOCK_MORE));
-}
-
-uint light_passing_word(RandomKey key, uint bounce) {
-#ifdef HAS_ALPHA
-  return random_bits(key, BLOCKS_OF_LIGHT_PATHS + BLOCKS_OF_PASSING + bounce).x;
-#else
-  return 0u;
-#endif
+  return independent_bits(key, BLOCKS_OF_LIGHT_PATHS + bounce * BLOCKS_PER_EVENT);
 }

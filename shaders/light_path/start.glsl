@@ -33,23 +33,22 @@ vec3 on_disk(vec2 u, vec3 direction) {
 // Starts that far from the scene's centre, in its radii: just outside of it.
 const float START_DISTANCE = 1.01;
 
-// From far away, along `direction`. `pdf`: of that direction, the choice of the light included.
-LightStart start_from_afar(vec3 direction, vec3 radiance, float pdf, vec2 u) {
+// From far away, along `direction`, which was drawn with the density `pdf` after a choice with the probability `choice`.
+LightStart start_from_afar(vec3 direction, vec3 radiance, float choice, float pdf, vec2 u) {
   LightStart start;
   start.direction = direction;
   start.origin = parameters.scene_centre + on_disk(u, direction) - START_DISTANCE * parameters.scene_radius * direction;
-  start.flux = radiance / (pdf * parameters.disk_pdf);
-  start.chain = 1.0 / (pdf * parameters.disk_pdf);
+  start.arrivals = choice * parameters.disk_pdf;
+  start.flux = radiance / (start.arrivals * pdf);
+  start.chain = 1.0 / (start.arrivals * pdf);
   start.is_far = true;
   return start;
 }
 
-LightStart start_at_lamp(uint light, StartBits bits) {
-  LightTriangle triangle = light_triangle(choose_triangle(light, bits.light.y));
-  float root = sqrt(to_unit(bits.light.z));
-  float along = to_unit(bits.light.w);
-  vec2 place = root * vec2(1.0 - along, along);
-  vec2 u = vec2(to_unit(bits.direction.x), to_unit(bits.direction.y));
+LightStart start_at_lamp(uint light, StartNumbers numbers) {
+  LampPoint point = sample_lamp_point(light, numbers.light.y, numbers.light.zw);
+  LightTriangle triangle = point.triangle;
+  vec2 u = numbers.direction;
   float side = 1.0;
   if (triangle.radiance.w != EMITS_FRONT) {
     side = u.x < 0.5 ? 1.0 : -1.0;
@@ -60,17 +59,14 @@ LightStart start_at_lamp(uint light, StartBits bits) {
   LightStart start;
   start.direction = cosine_direction(u, normal);
   float cosine = dot(normal, start.direction);
-  start.origin = triangle.vertex.xyz + place.x * triangle.edge1.xyz + place.y * triangle.edge2.xyz +
-                 triangle.edge1.w * normal;
-  float pdf = emission_choice(light) * triangle.edge2.w * emitting_side(triangle) / PI;  // over the cosine
-  start.flux = cosine > 0.0 ? light_radiance(triangle, -start.direction, place) / pdf : vec3(0.0);
+  start.origin = point.position + triangle.edge1.w * normal;
+  float pdf = lamp_emission_pdf(triangle);
+  start.flux = cosine > 0.0 ? light_radiance(triangle, -start.direction, point.place) / pdf : vec3(0.0);
   start.chain = 1.0 / pdf;
   start.arrivals = emission_choice(light) * lamp_direction_pdf(triangle, cosine);
   start.is_far = false;
   return start;
 }
-
-#ifdef HAS_PUNCTUAL
 
 // Uniform about an axis, from a cosine on.
 vec3 direction_about(vec3 axis, float least_cosine, vec2 u) {
@@ -80,15 +76,19 @@ vec3 direction_about(vec3 axis, float least_cosine, vec2 u) {
   return to_world(vec3(sine * cos(phi), sine * sin(phi), cosine), tangent_of(axis), axis);
 }
 
+vec3 any_direction(vec2 u) {
+  return direction_about(vec3(0.0, 0.0, 1.0), -1.0, u);
+}
+
+#ifdef HAS_PUNCTUAL
 LightStart start_at_punctual(uint light, float kind, vec2 u) {
   LightStart start;
   if (kind == LIGHT_DIRECTIONAL) {
-    start = start_from_afar(light_axis(light).xyz, light_intensity(light).rgb, emission_choice(light), u);
-    start.arrivals = emission_choice(light) * parameters.disk_pdf;
+    start = start_from_afar(light_axis(light).xyz, light_intensity(light).rgb, emission_choice(light), 1.0, u);
   } else {
-    vec3 axis = kind == LIGHT_SPOT ? light_axis(light).xyz : vec3(0.0, 0.0, 1.0);
     float pdf = emission_choice(light) * punctual_direction_pdf(light, kind);
-    start.direction = direction_about(axis, kind == LIGHT_SPOT ? spot_end(light) : -1.0, u);
+    start.direction =
+        kind == LIGHT_SPOT ? direction_about(light_axis(light).xyz, spot_end(light), u) : any_direction(u);
     start.origin = light_centre(light).xyz;
     start.flux = light_intensity(light).rgb * (punctual_part(light, kind, start.direction) / pdf);
     start.arrivals = pdf;
@@ -97,52 +97,42 @@ LightStart start_at_punctual(uint light, float kind, vec2 u) {
   start.chain = 0.0;  // no path from the camera meets it
   return start;
 }
-
 #endif
 
 #ifdef HAS_SKY
-LightStart start_at_sky(uint light, StartBits bits) {
-  SkySample sky = sample_sky(uvec3(bits.light.yzw));
-  vec2 u = vec2(to_unit(bits.direction.x), to_unit(bits.direction.y));
-  LightStart start = start_from_afar(-sky.direction, sky_radiance(sky.direction), emission_choice(light) * sky.pdf, u);
-  start.arrivals = emission_choice(light) * parameters.disk_pdf;
-  return start;
+LightStart start_at_sky(uint light, StartNumbers numbers) {
+  SkySample sky = sample_sky(numbers.light.yzw);
+  return start_from_afar(-sky.direction, sky_radiance(sky.direction), emission_choice(light), sky.pdf, numbers.direction);
 }
 #endif
 
-LightStart start_at_constant_environment(StartBits bits) {
-  vec2 u = vec2(to_unit(bits.light.z), to_unit(bits.light.w));
-  float cosine = 1.0 - 2.0 * u.x;
-  float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-  vec3 direction = vec3(sine * cos(2.0 * PI * u.y), sine * sin(2.0 * PI * u.y), cosine);
-  vec2 place = vec2(to_unit(bits.direction.x), to_unit(bits.direction.y));
-  LightStart start =
-      start_from_afar(direction, parameters.environment, parameters.environment_share * (0.25 / PI), place);
+LightStart start_at_constant_environment(StartNumbers numbers) {
+  vec3 direction = any_direction(vec2(to_unit(numbers.light.z), to_unit(numbers.light.w)));
+  LightStart start = start_from_afar(direction, parameters.environment, parameters.environment_share, 0.25 / PI,
+                                     numbers.direction);
   start.light = NO_LIGHT;
-  start.arrivals = 0.0;
   return start;
 }
 
-LightStart start_of(StartBits bits) {
+LightStart start_of(StartNumbers numbers) {
   // The choice between the environment and the others takes the lowest part of the word, which is then stretched again.
   float share = parameters.environment_share;
-  float u = to_unit(bits.light.x);
-  if (u < share) return start_at_constant_environment(bits);
-  uint word = share > 0.0 ? uint(min((u - share) / (1.0 - share), 0.99999994) * 4294967296.0) : bits.light.x;
+  float u = to_unit(numbers.light.x);
+  if (u < share) return start_at_constant_environment(numbers);
+  uint word = share > 0.0 ? uint(min((u - share) / (1.0 - share), 0.99999994) * 4294967296.0) : numbers.light.x;
   uint light = choose_light(NO_CELL, word);
   LightStart start;
 #if defined(HAS_SKY) || defined(HAS_PUNCTUAL)
   float kind = light_choice(light).z;
-  if (kind == LIGHT_SURFACE) start = start_at_lamp(light, bits);
+  if (kind == LIGHT_SURFACE) start = start_at_lamp(light, numbers);
 #ifdef HAS_SKY
-  if (kind == LIGHT_SKY) start = start_at_sky(light, bits);
+  if (kind == LIGHT_SKY) start = start_at_sky(light, numbers);
 #endif
 #ifdef HAS_PUNCTUAL
-  if (is_punctual(kind))
-    start = start_at_punctual(light, kind, vec2(to_unit(bits.direction.x), to_unit(bits.direction.y)));
+  if (is_punctual(kind)) start = start_at_punctual(light, kind, numbers.direction);
 #endif
 #else
-  start = start_at_lamp(light, bits);
+  start = start_at_lamp(light, numbers);
 #endif
   start.light = light;
   return start;

@@ -1,6 +1,7 @@
 // How the partial sums of a path grow from event to event (PathSums in event.glsl).
 #include "material/own_lobes.glsl"
 #include "mis/seen_from.glsl"
+#include "sampling/direction.glsl"
 #include "sampling/event.glsl"
 #include "shared/variants.glsl"
 
@@ -10,10 +11,17 @@ float drawn_from_behind(Event e, float reverse_pdf) {
   return length(vec2(e.sums.last, e.sums.chain * reverse_pdf / face_cosine(e, e.wo)));
 }
 
+// The same at an event of the camera's path, which light paths reach from `wi`: they lead on by the BSDF.
+float drawn_by_light_paths(Event e, vec3 wi) {
+  float reverse = 0.0;
+  if (e.sums.chain > 0.0) reverse = bsdf_pdf(seen_from(e, wi), e.wo);
+  return drawn_from_behind(e, reverse);
+}
+
 // Behind an event whose direction `wi` was drawn with the density `pdf`. With traced light paths alone, no two events of a
 // path are connected: what is counted of `last` is only what stands for a whole technique.
-PathSums sums_behind(Event e, vec3 wi, float pdf, float reverse_pdf) {
-  return PathSums(face_cosine(e, wi) / pdf * drawn_from_behind(e, reverse_pdf), 0.0);
+PathSums sums_behind(Event e, vec3 wi, float pdf, float from_behind) {
+  return PathSums(face_cosine(e, wi) / pdf * from_behind, 0.0);
 }
 
 #ifdef HAS_OWN_LOBES

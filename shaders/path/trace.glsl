@@ -36,23 +36,19 @@ PathSums sums_at_first(Event e) {
   return PathSums(0.0, float(parameters.light_paths) / (view.density * face_cosine(e, e.wo)));
 }
 
-// Behind an event: light paths lead on from it by the BSDF.
+// Behind an event.
 PathSums sums_after(Event e, BsdfSample next) {
   vec3 wi = next.direction.direction;
-  bool is_chained = e.sums.chain > 0.0;
-  Event seen;
-  if (is_chained) seen = seen_from(e, wi);
 #ifdef HAS_OWN_LOBES
   if (next.direction.is_delta) {
-    if (!is_chained) return PathSums(0.0, 0.0);
+    if (e.sums.chain <= 0.0) return PathSums(0.0, 0.0);
+    Event seen = seen_from(e, wi);
     float probability = smooth_lobes(e.surface, e.bsdf, e.wo, wi).probability;
     float reverse = smooth_lobes(seen.surface, seen.bsdf, wi, e.wo).probability;
     return sums_behind_smooth(e, wi, probability, reverse);
   }
 #endif
-  float reverse = 0.0;
-  if (is_chained) reverse = bsdf_pdf(seen, e.wo);
-  return sums_behind(e, wi, next.direction.pdf, reverse);
+  return sums_behind(e, wi, next.direction.pdf, drawn_by_light_paths(e, wi));
 }
 
 #endif

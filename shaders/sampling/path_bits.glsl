@@ -15,8 +15,8 @@ struct EventBits {
   uvec4 more;       // triangle of the light, rotation of the expectation (three)
 };
 
-EventBits independent_bits(RandomKey key, uint bounce) {
-  uint block = bounce * BLOCKS_PER_EVENT;
+// `block`: the first of its blocks.
+EventBits independent_bits(RandomKey key, uint block) {
   return EventBits(random_bits(key, block + BLOCK_DIRECTION), random_bits(key, block + BLOCK_LIGHT),
                    random_bits(key, block + BLOCK_TWO_RAY), random_bits(key, block + BLOCK_MORE));
 }
@@ -52,7 +52,7 @@ PathBits path_bits(RandomKey key) {
 }
 
 EventBits event_bits(PathBits bits, RandomKey key, uint bounce) {
-  EventBits chosen = independent_bits(key, bounce);
+  EventBits chosen = independent_bits(key, bounce * BLOCKS_PER_EVENT);
   for (uint i = 0u; i < uint(STRATIFIED_EVENTS); ++i) {
     if (bounce == i) chosen = bits.stratified[i];
   }
@@ -74,7 +74,7 @@ PathBits path_bits(RandomKey key) {
 }
 
 EventBits event_bits(PathBits bits, RandomKey key, uint bounce) {
-  return independent_bits(key, bounce);
+  return independent_bits(key, bounce * BLOCKS_PER_EVENT);
 }
 
 #endif

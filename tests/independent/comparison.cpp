@@ -177,7 +177,7 @@ std::vector<glm::dvec3> blocks_of(const std::vector<glm::dvec3>& pixels, int siz
 Agreement Comparison::compare(const std::vector<RadianceImage>& seeds) const {
   const auto size = static_cast<std::size_t>(size_.size) * static_cast<std::size_t>(size_.size);
   std::vector<Spread> pixels(size), blocks(size / (kBlock * kBlock));
-  std::vector<double> means;
+  Spread whole;
   double truth = 0, variance_of_truth = 0;
   for (const RadianceImage& image : seeds) {
     for (std::size_t i = 0; i < size; ++i) pixels[i].add(image.mean[i]);
@@ -185,7 +185,7 @@ Agreement Comparison::compare(const std::vector<RadianceImage>& seeds) const {
     for (std::size_t i = 0; i < of_image.size(); ++i) blocks[i].add(of_image[i]);
     double mean = 0;
     for (std::size_t i = 0; i < size; ++i) mean += edges_[i] == 0 ? mean_of(image.mean[i]) : 0;
-    means.push_back(mean);
+    whole.add(glm::dvec3(mean));
   }
   Difference of_pixels, of_blocks;
   of_pixels.scale = truth_.mean;
@@ -204,10 +204,7 @@ Agreement Comparison::compare(const std::vector<RadianceImage>& seeds) const {
   Agreement result;
   result.pixels = pooled_chi2(of_pixels, 1, kBlock);
   result.blocks = pooled_chi2(of_blocks, 1, kBlocksInPool);
-  double sum = 0, squares = 0;
-  for (const double m : means) sum += m, squares += m * m;
-  const double n = static_cast<double>(means.size()), mean = sum / n;
-  const double variance = std::max(0.0, squares / n - mean * mean) / (n - 1);
+  const double mean = whole.mean().x, variance = whole.variance_of_mean().x;
   result.mean_ratio = mean / truth;
   result.mean_ratio_error =
       result.mean_ratio * std::sqrt(variance / (mean * mean) + variance_of_truth / (truth * truth)) +

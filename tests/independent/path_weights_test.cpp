@@ -88,11 +88,9 @@ vec3 weights_of(uint index, uint count) {
   vec3 to_light = light.direction;
   if (light.pdf <= 0.0 || bsdf_cosine(last.surface, last.bsdf, last.wo, to_light) == vec3(0.0)) return vec3(-1.0);
   uint index_of_triangle = choose_triangle(light.light, word);
-  LightTriangle triangle = light_triangle(index_of_triangle);
-  float root = sqrt(to_unit(bits.y));
-  vec3 point = triangle.vertex.xyz + root * (1.0 - to_unit(bits.z)) * triangle.edge1.xyz +
-               root * to_unit(bits.z) * triangle.edge2.xyz;
-  float t = length(point - last.surface.position);
+  LampPoint point = sample_lamp_point(light.light, word, bits.yz);
+  LightTriangle triangle = point.triangle;
+  float t = length(point.position - last.surface.position);
 
   BsdfSample met;
   met.direction.direction = to_light;
@@ -113,7 +111,7 @@ vec3 weights_of(uint index, uint count) {
   path.light = light.light;
   path.is_far = false;
   path.arrivals = emission_choice(light.light) * lamp_direction_pdf(triangle, dot(triangle.normal.xyz, to_light));
-  path.sums = PathSums(1.0 / lamp_emission_pdf(index_of_triangle), 0.0);
+  path.sums = PathSums(1.0 / lamp_emission_pdf(triangle), 0.0);
   vec3 viewer = to_light;
   bool is_reversible = true;
   for (uint i = count; i-- > 0u;) {

@@ -41,6 +41,21 @@ TEST(State, HoldsWhatTheTableHasNotYetLearned) {
   EXPECT_EQ(later.table()->values(), whole.table()->values());
 }
 
+// What light paths bring in a frame is in the sums when the frame ends.
+TEST(State, GoesOnWithLightPaths) {
+  const Scene scene = glossy_room();
+  RenderSettings settings = small_settings(Sampler::rl, LightChoice::power);
+  settings.light_paths = LightPaths::trace;
+  settings.rl.trial_frames = 0;
+  Tracer whole(device(), scene, settings);
+  render(whole, 3);
+  Tracer later(device(), scene, settings);
+  later.restore(whole.state());
+  render(whole, 3);
+  render(later, 3);
+  expect_equal(later.radiance(), whole.radiance());
+}
+
 // Before the trial of the table, within it and after it.
 TEST(State, GoesOnThroughATrialOfTheTable) {
   const Scene scene = glossy_room();
