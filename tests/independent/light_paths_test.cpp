@@ -27,11 +27,8 @@ TEST_P(LightPathRooms, AgreesWithTheIndependentTracer) {
 
 INSTANTIATE_TEST_SUITE_P(Features, LightPathRooms,
                          testing::Values(Case{"normals", Sampler::bsdf, Nee::none},
-                                         Case{"alpha", Sampler::bsdf, Nee::one_ray},
-                                         Case{"glass", Sampler::rl, Nee::one_ray},
-                                         Case{"lamp_in_glass", Sampler::bsdf, Nee::one_ray},
-                                         Case{"sky_and_lamp", Sampler::rl, Nee::one_ray},
-                                         Case{"punctual", Sampler::bsdf, Nee::one_ray}),
+                                         Case{"lamp_in_glass", Sampler::rl, Nee::one_ray},
+                                         Case{"sky_and_lamp", Sampler::rl, Nee::one_ray}),
                          [](const auto& c) { return std::string(c.param.room); });
 
 }  // namespace
