@@ -13,7 +13,7 @@ enum class RandomNumbers { independent, sobol };
 enum class Sampler { bsdf, uniform, rl };
 enum class Nee { none, one_ray, two_ray };
 enum class LightChoice { uniform, power, learned };
-enum class LightPaths { none, trace };
+enum class LightPaths { none, trace, connect };
 enum class BvhKind { sah, threaded };
 
 template <>
@@ -34,7 +34,7 @@ struct EnumNames<LightChoice> {
 };
 template <>
 struct EnumNames<LightPaths> {
-  static constexpr std::array<std::string_view, 2> values{"none", "trace"};
+  static constexpr std::array<std::string_view, 3> values{"none", "trace", "connect"};
 };
 template <>
 struct EnumNames<BvhKind> {
@@ -147,7 +147,8 @@ void visit_knobs(Visitor& visit, RenderSettings& settings, Environment& environm
                .unit = "",
                .help = "paths that start at the lights, as many each frame as light_path_count says; trace: "
                        "each of their events is connected to the camera, and weighted against what the "
-                       "camera's own paths find",
+                       "camera's own paths find; connect: also each event of the camera's paths to one of "
+                       "theirs",
                .implied = "\"none\""},
       settings.light_paths);
   visit(KnobInfo{"light_path_count", "paths",

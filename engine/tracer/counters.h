@@ -43,6 +43,7 @@ struct FrameCounters {
   std::uint64_t clamped_samples = 0;    // samples with a channel above clamp_radiance
   std::uint64_t light_rays = 0;         // rays of paths from the lights, those to the camera included
   std::uint64_t splats = 0;             // connections of such paths to the camera that asked for a ray
+  std::uint64_t connections = 0;        // of the camera's events to theirs, likewise
 
   FrameCounters& operator+=(const FrameCounters& other) {
     paths += other.paths;
@@ -58,6 +59,7 @@ struct FrameCounters {
     clamped_samples += other.clamped_samples;
     light_rays += other.light_rays;
     splats += other.splats;
+    connections += other.connections;
     return *this;
   }
 };

@@ -179,6 +179,16 @@ void Film::set_firefly_thresholds(std::span<const float> thresholds) {
 
 void Film::check_loops() const { check_loops_of(read_block(counters_)); }
 
+double Film::kept_events(std::uint32_t paths) const {
+  if (!light_paths_) return 0;
+  double events = 0;
+  std::uint32_t path = 0;
+  for (const gpu::uvec4& counts : light_paths_->read_all<gpu::uvec4>()) {
+    if (path++ < paths) events += counts.y >> 16;  // beside the splats (trace_light.comp)
+  }
+  return events;
+}
+
 FrameCounters Film::counters() const {
   const gpu::Counters block = read_block(counters_);
   check_loops_of(block);
@@ -196,6 +206,7 @@ FrameCounters Film::counters() const {
   s.clamped_samples = counter(block, gpu::COUNTER_CLAMPED);
   s.light_rays = counter(block, gpu::COUNTER_LIGHT_RAYS);
   s.splats = counter(block, gpu::COUNTER_SPLATS);
+  s.connections = counter(block, gpu::COUNTER_CONNECTIONS);
   return s;
 }
 

@@ -46,6 +46,8 @@ class Film {
   // Of the odd and of the even frames, of the samples times their weights.
   std::array<std::vector<glm::vec3>, 2> half_sums() const;
   void check_loops() const;
+  // Of the first so many light paths of the last frame: events that were kept for connections.
+  double kept_events(std::uint32_t paths) const;
 
   // What has gathered over the frames so far.
   std::vector<gpu::Buffer*> gathered();

@@ -9,13 +9,8 @@
 namespace qtrace {
 namespace {
 
-// Work groups of one invocation for each light path, in rows: OpenGL promises 65,535 along a side.
-void dispatch_light_paths(gpu::Program& shader, std::uint32_t paths) {
-  constexpr std::uint32_t kLongestRow = 32768;
-  const std::uint32_t groups = (paths + gpu::TRACE_GROUP - 1) / gpu::TRACE_GROUP;
-  const std::uint32_t row = std::min(groups, kLongestRow);
-  shader.dispatch(row, (groups + row - 1) / row);
-}
+// Work groups of one invocation for each light path stand in rows: OpenGL promises 65,535 along a side.
+constexpr std::uint32_t kLongestRow = 32768;
 
 }  // namespace
 
@@ -25,6 +20,14 @@ std::vector<gpu::Program*> FrameShaders::all() const {
     if (program) programs.push_back(program.get());
   }
   return programs;
+}
+
+void trace_light_paths(const RenderSettings& settings, const FrameShaders& shaders) {
+  if (!shaders.trace_light) return;
+  const auto paths = static_cast<std::uint32_t>(light_paths_of_a_frame(settings));
+  const std::uint32_t groups = (paths + gpu::TRACE_GROUP - 1) / gpu::TRACE_GROUP;
+  const std::uint32_t row = std::min(groups, kLongestRow);
+  shaders.trace_light->dispatch(row, (groups + row - 1) / row);
 }
 
 void render_frame(const Frame& frame, const RenderSettings& settings, const FrameShaders& shaders,
@@ -39,10 +42,8 @@ void render_frame(const Frame& frame, const RenderSettings& settings, const Fram
     shaders.trace->set_point(sequence,
                              stratified_points(settings.seed, sequence, index, settings.stratified_events));
   }
+  trace_light_paths(settings, shaders);
   shaders.trace->dispatch(tiles(settings.width), tiles(settings.height));
-  if (shaders.trace_light) {
-    dispatch_light_paths(*shaders.trace_light, static_cast<std::uint32_t>(light_paths_of_a_frame(settings)));
-  }
   film.accumulate(frame.number, frame.weight);
 }
 

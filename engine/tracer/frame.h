@@ -27,6 +27,9 @@ struct FrameShaders {
   std::vector<gpu::Program*> all() const;
 };
 
+// Enqueues those of a frame that is set; with HAS_CONNECTIONS, the camera's paths need them.
+void trace_light_paths(const RenderSettings& settings, const FrameShaders& shaders);
+
 // Enqueues it. All that the shader reads must be bound, the film and the parameters of its size among it.
 void render_frame(const Frame& frame, const RenderSettings& settings, const FrameShaders& shaders,
                   Film& film);

@@ -96,14 +96,15 @@ void check_punctual(const Scene& scene, const RenderSettings& settings) {
 // What their weights would have to know of the camera's side, and do not.
 void check_light_paths(const RenderSettings& settings) {
   if (settings.light_paths == LightPaths::none) return;
-  check(
-      settings.nee != Nee::two_ray,
-      "light_paths trace weighs its paths against nee one_ray or none, not against two_ray, which draws two "
-      "samples towards one light; set nee to one_ray");
+  check(settings.nee != Nee::two_ray,
+        "light_paths {} weighs its paths against nee one_ray or none, not against two_ray, which draws two "
+        "samples towards one light; set nee to one_ray",
+        enum_name(settings.light_paths));
   check(settings.sampler != Sampler::rl || settings.rl.guided_bounces >= settings.max_bounces,
-        "light_paths trace cannot tell how far from the camera an event of its paths will be, but "
+        "light_paths {} cannot tell how far from the camera an event of its paths will be, but "
         "rl.guided_bounces {} is less than max_bounces {}; raise it to {} or more",
-        settings.rl.guided_bounces, settings.max_bounces, settings.max_bounces);
+        enum_name(settings.light_paths), settings.rl.guided_bounces, settings.max_bounces,
+        settings.max_bounces);
   gpu::check_buffer_size("light paths",
                          static_cast<std::size_t>(light_paths_of_a_frame(settings)) * sizeof(gpu::uvec4));
 }

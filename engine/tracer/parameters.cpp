@@ -1,6 +1,7 @@
 #include "engine/tracer/parameters.h"
 
 #include "engine/device_scene/light_table.h"
+#include "engine/tracer/light_vertices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,8 @@ gpu::Parameters make_parameters(const Camera& camera, const RenderSettings& sett
   p.sky_turn = features.sky_turn;
   p.reach = features.reach;
   p.light_paths = whole(light_paths_of_a_frame(settings));
+  p.kept_paths = kept_light_paths(settings);
+  p.connections = 1;
   p.scene_centre = features.centre;
   p.scene_radius = features.radius;
   const double sky = gpu::power_of_environment(mean_environment, features.radius);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 namespace qtrace {
 namespace {
@@ -53,6 +54,10 @@ Pilot::Pilot(const Camera& camera, const RenderSettings& settings, const gpu::Sc
       parameter_block_("parameters of the pilot", sizeof(gpu::Parameters)) {
   const gpu::Parameters parameters = make_parameters(camera, settings_, features, cells);
   parameter_block_.write(0, &parameters, sizeof(parameters));
+}
+
+void Pilot::set_connections(float connections) {
+  parameter_block_.write(offsetof(gpu::Parameters, connections), &connections, sizeof(connections));
 }
 
 void Pilot::render(const Shaders& shaders, TableTrial& trial, bool teaches,

@@ -25,6 +25,9 @@ class Pilot {
   Pilot(const Camera& camera, const RenderSettings& settings, const gpu::SceneFeatures& features,
         const CellBuffers* cells, gpu::ProgramCache& programs);
 
+  // As in the parameters of the image.
+  void set_connections(float connections);
+
   struct Shaders {
     const FrameShaders& with_table;
     const FrameShaders& without;

@@ -147,6 +147,9 @@ RenderSettings effective_settings(RenderSettings settings, const gpu::SceneFeatu
   // What emits nothing has no paths, and what is seen without any event is the camera's alone.
   const bool is_dark = features.lights == 0 && !has_constant_environment(settings);
   if (is_dark || settings.max_bounces == 0) settings.light_paths = LightPaths::none;
+  // A connection joins two events.
+  if (settings.light_paths == LightPaths::connect && settings.max_bounces < 2)
+    settings.light_paths = LightPaths::trace;
   return settings;
 }
 
@@ -191,6 +194,7 @@ gpu::Defines shader_defines(const RenderSettings& wanted, const gpu::SceneFeatur
   }
   if (has_sky || has_constant_environment(settings)) defines["HAS_ENVIRONMENT"] = "1";
   if (settings.light_paths != LightPaths::none) defines["HAS_LIGHT_PATHS"] = "1";
+  if (settings.light_paths == LightPaths::connect) defines["HAS_CONNECTIONS"] = "1";
   if (has_table(settings)) define_table(defines, settings, features);
   return defines;
 }

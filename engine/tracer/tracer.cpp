@@ -7,6 +7,7 @@
 #include "engine/tracer/film.h"
 #include "engine/tracer/frame.h"
 #include "engine/tracer/learning_schedule.h"
+#include "engine/tracer/light_vertices.h"
 #include "engine/tracer/limits.h"
 #include "engine/tracer/parameters.h"
 #include "engine/tracer/pilot.h"
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -53,6 +55,7 @@ struct Tracer::State {
                     context.programs());
       defines = with_cells(defines, table->cells());
     }
+    if (settings.light_paths == LightPaths::connect) light_vertices.emplace(settings);
     shaders = shaders_of(settings, joined(defines, more));
     if (trial.is_wanted()) {
       RenderSettings without = settings;
@@ -82,6 +85,7 @@ struct Tracer::State {
     parameter_block.bind_uniform(gpu::BINDING_PARAMETERS);
     buffers.bind();
     film.bind();
+    if (light_vertices) light_vertices->bind();
     if (table) table->bind();
   }
 
@@ -107,12 +111,22 @@ struct Tracer::State {
       }
     }
     film.accumulate(0);
+    expect_connections();
     context.finish();
     if (!context.device().software) keep_busy();
     film.check_loops();
     film.reset();
     if (table) table->reset();
     context.finish();
+  }
+
+  // Light paths of a frame that counts nowhere tell how many events a path has.
+  void expect_connections() {
+    if (!light_vertices) return;
+    trace_light_paths(settings, shaders);
+    const float connections = light_vertices->connections(film);
+    parameter_block.write(offsetof(gpu::Parameters, connections), &connections, sizeof(connections));
+    if (pilot) pilot->set_connections(connections);
   }
 
   float weight(std::uint32_t frame) const { return frame_weight(frame, settings, trial); }
@@ -152,6 +166,7 @@ struct Tracer::State {
   gpu::Buffer parameter_block;
   FrameShaders shaders;
   FrameShaders shaders_without;  // none where no trial is wanted
+  std::optional<LightVertices> light_vertices;
   std::optional<QTable> table;
   std::optional<Pilot> pilot;  // where a trial is wanted
   std::vector<std::string> warnings;
@@ -276,6 +291,7 @@ std::uint64_t Tracer::cells() const { return state_->table ? state_->table->cell
 
 std::uint64_t Tracer::device_bytes() const {
   return state_->buffers.bytes() + state_->film.bytes() + state_->parameter_block.bytes() +
+         (state_->light_vertices ? state_->light_vertices->bytes() : 0) +
          (state_->table ? state_->table->bytes() : 0) + (state_->pilot ? state_->pilot->bytes() : 0);
 }
 

@@ -236,6 +236,7 @@ std::vector<CounterColumn> counter_columns() {
        [](const C& c) { return CsvValue(c.clamped_samples); }},
       {"light_rays", "rays of light paths", "", [](const C& c) { return CsvValue(c.light_rays); }},
       {"splats", "splats", "", [](const C& c) { return CsvValue(c.splats); }},
+      {"connections", "connections", "", [](const C& c) { return CsvValue(c.connections); }},
   };
 }
 

@@ -6,13 +6,14 @@ namespace qtrace::experiments {
 namespace {
 
 // Members in a fixed order; raised where that changes.
-constexpr int kLayout = 4;
+constexpr int kLayout = 5;
 
 template <class Visitor>
 void visit_fields(Visitor& visit, FrameCounters& s) {
   visit(s.paths), visit(s.rays), visit(s.path_segments), visit(s.zero_paths), visit(s.cell_lookups);
   visit(s.cell_fallbacks), visit(s.non_finite), visit(s.table_updates), visit(s.saturated_updates);
   visit(s.fireflies), visit(s.clamped_samples), visit(s.light_rays), visit(s.splats);
+  visit(s.connections);
 }
 
 template <class Visitor>

@@ -3,6 +3,8 @@
 // camera that find it, too. Formulas are written for the path as the camera sees it: f |cos| is that of the camera's side,
 // where shading normals and indices of refraction stand as they do there, and the cosines between both sides are those of the
 // triangles. That is Veach's adjoint of shading normals (1997, section 5.3) and of refraction (section 5.2).
+#include "connection/camera_side.glsl"
+#include "connection/light_vertices.glsl"
 #include "geometry/camera.glsl"
 #include "geometry/surface.glsl"
 #include "light/lights.glsl"
@@ -17,7 +19,6 @@
 #include "mis/path_sums.glsl"
 #include "mis/seen_from.glsl"
 #include "path/roulette.glsl"
-#include "path/state.glsl"
 #include "sampling/direction.glsl"
 #include "sampling/event.glsl"
 #include "sampling/meeting.glsl"
@@ -36,7 +37,7 @@ struct LightPath {
   vec3 flux;      // what it carries, over the densities of all that was drawn
   vec3 roulette;  // what Russian roulette goes by
   PathSums sums;
-  uint light;      // as in LightStart
+  uint light;      // as in LightStart, up to the first event
   float arrivals;  // likewise
   bool is_far;
 #ifdef HAS_ABSORPTION
@@ -44,26 +45,39 @@ struct LightPath {
   bool left_volume;  // whether the path has met a surface that bounds a volume, from inside or outside,
   float way;         // and how long it is up to there
 #endif
+#ifdef HAS_CONNECTIONS
+  vec3 left;  // position of the event that `origin` is at
+  uint kept;  // of its events
+#endif
   Tally tally;
   uint splats;
 };
 
-// The event as the camera's side sees it, in that side's cell of the table.
-Event seen_by_camera(Event e, vec3 viewer, inout Tally tally) {
-  Event seen = seen_from(e, viewer);
-  find_state(seen, tally, true, true);
-  return seen;
-}
-
-// At the first event: that of the camera's light samples over that of the path, which has come `t` along its ray.
-float light_samples_over(LightPath path, Event e, Event seen, float t) {
-#if NEE == NEE_ONE_RAY
-  if (path.light == NO_LIGHT) return 0.0;
-  float arrivals = path.arrivals / (path.is_far ? 1.0 : t * t);
-  return light_probability(cell_of(seen), path.light) / (arrivals * face_cosine(e, e.wo));
-#else
-  return 0.0;
+#ifdef HAS_CONNECTIONS
+// `events`: of the path, this one included. A last one would make paths of the camera too long, and what is smooth cannot be
+// connected.
+void keep(inout LightPath path, Event e, uint index, uint events) {
+  if (index >= parameters.kept_paths || events >= parameters.max_bounces) return;
+#ifdef HAS_OWN_LOBES
+  if (is_smooth(e.bsdf)) return;
 #endif
+  float way = 0.0;
+#ifdef HAS_ABSORPTION
+  if (!path.left_volume) way = path.way;
+#endif
+  light_vertices[vertex_place(index, path.kept)] =
+      LightVertex(path.flux, e.sums.chain, e.wo, e.sums.last, e.hit.barycentric.x, e.hit.barycentric.y, e.hit.triangle, path.light, events,
+                  way, uvec2(0u));
+  ++path.kept;
+}
+#endif
+
+// At the first event: the light's samples of the camera's side, for each unit of their probability, over the path.
+float light_samples_over(LightPath path, Event e, float t) {
+#if NEE == NEE_ONE_RAY
+  if (path.light != NO_LIGHT) return (path.is_far ? 1.0 : t * t) / (path.arrivals * face_cosine(e, e.wo));
+#endif
+  return 0.0;
 }
 
 // The part of a connection that is not opaque; the ray starts at the camera, as camera rays do.
@@ -74,20 +88,13 @@ float reaching_camera(Event e, CameraView view, inout Tally tally) {
   return transmittance(origin, ray_origin(s, view.direction) - origin, tally.rays);
 }
 
-// Of the camera's techniques, which reach the event by the direction that `seen` is seen from (path_sums.glsl).
-float drawn_by_camera(LightPath path, Event e, Event seen, uint bounce, float t) {
-  if (bounce == 0u) e.sums.last = light_samples_over(path, e, seen, t);
-  float reverse = e.sums.chain > 0.0 ? direction_pdf(seen, e.wo) : 0.0;
-  return drawn_from_behind(e, reverse);
-}
-
 // `density`: that of the camera's rays at the event, per area, over the number of light paths.
-float weight_at_camera(LightPath path, Event e, Event seen, uint bounce, float t, float density) {
-  return weight_beside(density * drawn_by_camera(path, e, seen, bounce, t), 0.0);
+float weight_at_camera(LightPath path, Event e, Event seen, float density) {
+  return weight_beside(density * drawn_by_camera(e, seen, path.light), 0.0);
 }
 
 // The camera stands in air, and nothing on the way to it is passed: no volume absorbs there.
-void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
+void connect_to_camera(inout LightPath path, Event e) {
   CameraView view = camera_view(e.surface.position);
   if (!view.is_in_image) return;
   Event seen = seen_by_camera(e, view.direction, path.tally);
@@ -95,7 +102,7 @@ void connect_to_camera(inout LightPath path, Event e, uint bounce, float t) {
   float density = view.density * face_cosine(e, view.direction) / float(parameters.light_paths);
   vec3 brought = path.flux * reflected * (density / face_cosine(e, e.wo));
   if (brought == vec3(0.0)) return;
-  float weight = weight_at_camera(path, e, seen, bounce, t, density);
+  float weight = weight_at_camera(path, e, seen, density);
   add_splat(view.pixel, brought * (weight * reaching_camera(e, view, path.tally)), path.tally);
   ++path.splats;
 }
@@ -112,26 +119,30 @@ vec3 pass_by_smooth_lobe(inout LightPath path, Event e, Event seen) {
 #endif
 
 // Behind an event: the factor of the flux, zero where the path ends.
-vec3 pass_on(inout LightPath path, Event e, BsdfDraw drawn, uint bounce, float t) {
+vec3 pass_on(inout LightPath path, Event e, BsdfDraw drawn) {
   Event seen = seen_by_camera(e, drawn.direction, path.tally);
 #ifdef HAS_OWN_LOBES
   if (drawn.pdf == INFINITY) return pass_by_smooth_lobe(path, e, seen);
 #endif
   vec3 reflected = bsdf_cosine(seen.surface, seen.bsdf, seen.wo, e.wo);
-  path.sums = sums_behind(e, drawn.direction, drawn.pdf, drawn_by_camera(path, e, seen, bounce, t));
+  path.sums = sums_behind(e, drawn.direction, drawn.pdf, drawn_by_camera(e, seen, path.light));
   return reflected * (face_cosine(e, drawn.direction) / (face_cosine(e, e.wo) * drawn.pdf));
 }
 
 // Returns whether the path goes on.
-bool scatter_light(inout LightPath path, Event e, EventBits bits, uint bounce, float t) {
+bool scatter_light(inout LightPath path, Event e, EventBits bits, uint bounce) {
   BsdfDraw drawn = draw_bsdf(e, bits.direction);
   if (drawn.is_lost || drawn.pdf <= 0.0) return false;
-  vec3 factor = pass_on(path, e, drawn, bounce, t);
+  vec3 factor = pass_on(path, e, drawn);
   if (factor == vec3(0.0)) return false;
   path.flux *= factor;
   path.roulette *= factor;
   path.origin = ray_origin(e.surface, drawn.direction);
   path.direction = drawn.direction;
+  path.light = NO_LIGHT;
+#ifdef HAS_CONNECTIONS
+  path.left = e.surface.position;
+#endif
 #ifdef HAS_ABSORPTION
   path.medium = medium_towards(e, path.direction);
 #endif
@@ -166,6 +177,10 @@ Event light_event(inout LightPath path, Meeting met, uint bounce) {
   e.bsdf = bsdf_of(e.surface, e.wo);
   e.hit = met.hit;
   e.sums = path.sums;
+  if (bounce == 0u) e.sums.last = light_samples_over(path, e, met.hit.t);
+#ifdef HAS_CONNECTIONS
+  if (bounce > 0u) e.sums = sums_on_arrival(path.sums, e, path.left);
+#endif
 #ifdef HAS_TABLE
   e.cell = no_cell(e.surface);
 #endif
@@ -178,7 +193,7 @@ Event light_event(inout LightPath path, Meeting met, uint bounce) {
   e.medium = path.medium;
 #endif
 #ifdef HAS_PUNCTUAL
-  if (bounce == 0u && path.light != NO_LIGHT) {
+  if (path.light != NO_LIGHT) {
     float kind = light_choice(path.light).z;
     if (is_punctual(kind)) path.flux *= punctual_window(path.light, kind, met.hit.t);
   }
@@ -201,7 +216,11 @@ LightPath light_path_from(LightStart start) {
   path.left_volume = start.is_far;
   path.way = 0.0;
 #endif
-  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
+#ifdef HAS_CONNECTIONS
+  path.left = start.origin;
+  path.kept = 0u;
+#endif
+  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u, 0u);
   path.splats = 0u;
   return path;
 }
@@ -218,9 +237,12 @@ LightPath trace_light_path(RandomKey key) {
       going_on = met.hit.triangle != NO_TRIANGLE;
       if (going_on) {
         Event e = light_event(path, met, bounce);
-        connect_to_camera(path, e, bounce, met.hit.t);
+        connect_to_camera(path, e);
+#ifdef HAS_CONNECTIONS
+        keep(path, e, key.pixel, bounce + 1u);
+#endif
         going_on = bounce + 1u < parameters.max_bounces &&
-                   scatter_light(path, e, light_event_bits(key, bounce), bounce, met.hit.t);
+                   scatter_light(path, e, light_event_bits(key, bounce), bounce);
       }
       ++bounce;
     }

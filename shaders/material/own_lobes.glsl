@@ -55,6 +55,15 @@ bool is_mirror_coat(Bsdf b) {
 #endif
 }
 
+// Whether all of its lobes are smooth, from wherever it is seen.
+bool is_smooth(Bsdf b) {
+  bool has_rough_coat = false;
+#ifdef HAS_CLEARCOAT
+  has_rough_coat = b.coat > 0.0 && !is_mirror_coat(b);
+#endif
+  return b.alpha == 0.0 && !has_rough_coat && (b.metallic == 1.0 || diffuse_part(b) == 0.0);
+}
+
 #ifdef HAS_TRANSMISSION
 
 // Below the surface as both of its normals see it.

@@ -3,6 +3,7 @@
 #include "mis/seen_from.glsl"
 #include "sampling/direction.glsl"
 #include "sampling/event.glsl"
+#include "shared/parameters.glsl"
 #include "shared/variants.glsl"
 
 // Of the techniques that draw the path up to this event from its other end, which leads on from there with this density
@@ -18,10 +19,20 @@ float drawn_by_light_paths(Event e, vec3 wi) {
   return drawn_from_behind(e, reverse);
 }
 
-// Behind an event whose direction `wi` was drawn with the density `pdf`. With traced light paths alone, no two events of a
-// path are connected: what is counted of `last` is only what stands for a whole technique.
+// Behind an event whose direction `wi` was drawn with the density `pdf`. Where events are not connected to one another, no
+// technique draws the next one alone.
 PathSums sums_behind(Event e, vec3 wi, float pdf, float from_behind) {
-  return PathSums(face_cosine(e, wi) / pdf * from_behind, 0.0);
+  float last = 0.0;
+#ifdef HAS_CONNECTIONS
+  last = parameters.connections / pdf;
+#endif
+  return PathSums(face_cosine(e, wi) / pdf * from_behind, last);
+}
+
+// Of these, upon arrival at an event: densities per solid angle of a direction from `origin` become those per area.
+PathSums sums_on_arrival(PathSums sums, Event e, vec3 origin) {
+  vec3 way = e.surface.position - origin;
+  return PathSums(sums.chain, sums.last * dot(way, way) / face_cosine(e, e.wo));
 }
 
 #ifdef HAS_OWN_LOBES

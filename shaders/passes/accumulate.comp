@@ -28,6 +28,7 @@ uint fireflies = 0u;
 uint clamped_samples = 0u;
 uint light_rays = 0u;
 uint splat_count = 0u;
+uint connections = 0u;
 uint counts[COUNTER_NON_FINITE];  // those before it
 
 void judge_firefly(uint index, vec3 radiance) {
@@ -55,7 +56,8 @@ vec3 clamped(uint index, vec3 radiance) {
 
 void count_sample(uvec4 tally, bool is_zero) {
   counts[COUNTER_RAYS] += tally.x;
-  counts[COUNTER_SEGMENTS] += tally.y;
+  counts[COUNTER_SEGMENTS] += tally.y & 0xffffu;
+  connections += tally.y >> 16u;
   counts[COUNTER_ZERO_PATHS] += is_zero ? 1u : 0u;
   counts[COUNTER_LOOKUPS] += tally.z & 0xffffu;
   counts[COUNTER_FALLBACKS] += tally.z >> 16u;
@@ -86,7 +88,7 @@ void count_light_paths(uint index) {
       uvec4 tally = light_path_counts[index];
       counts[COUNTER_RAYS] += tally.x;
       light_rays += tally.x;
-      splat_count += tally.y;
+      splat_count += tally.y & 0xffffu;
       counts[COUNTER_LOOKUPS] += tally.z & 0xffffu;
       counts[COUNTER_FALLBACKS] += tally.z >> 16u;
       counts[COUNTER_SATURATED] += tally.w;
@@ -153,6 +155,7 @@ void main() {
   if (clamped_samples != 0u) atomicAdd(group_counts[COUNTER_CLAMPED], clamped_samples);
   if (light_rays != 0u) atomicAdd(group_counts[COUNTER_LIGHT_RAYS], light_rays);
   if (splat_count != 0u) atomicAdd(group_counts[COUNTER_SPLATS], splat_count);
+  if (connections != 0u) atomicAdd(group_counts[COUNTER_CONNECTIONS], connections);
   barrier();
   if (lane < COUNTER_PER_FRAME) count(lane, group_counts[lane]);
 }

@@ -22,7 +22,7 @@ void main() {
   CameraRay ray = camera_ray(vec2(pixel) + jitter);
   Path path = trace(key, ray.origin, ray.direction);
   samples[index].radiance = vec4(path.radiance, 0.0);
-  samples[index].counts = uvec4(path.tally.rays, path.tally.segments,
+  samples[index].counts = uvec4(path.tally.rays, path.tally.segments | (path.tally.connections << 16u),
                                 path.tally.lookups | (path.tally.fallbacks << 16u),
                                 path.tally.updates | (path.tally.saturated << 16u));
   if (loop_was_cut) report_cut(pixel);

@@ -15,7 +15,11 @@ void main() {
   uint index = dealt_group() * TRACE_GROUP + gl_LocalInvocationID.x;
   if (index >= parameters.light_paths) return;
   LightPath path = trace_light_path(RandomKey(index, frame_number, parameters.seed));
-  light_path_counts[index] = uvec4(path.tally.rays, path.splats,
+  uint kept = 0u;
+#ifdef HAS_CONNECTIONS
+  kept = path.kept;
+#endif
+  light_path_counts[index] = uvec4(path.tally.rays, path.splats | (kept << 16u),
                                    path.tally.lookups | (path.tally.fallbacks << 16u), path.tally.saturated);
   if (loop_was_cut) report_cut(uvec2(index % parameters.image_size.x, index / parameters.image_size.x));
 }

@@ -39,6 +39,9 @@ struct Path {
 #ifdef HAS_LIGHT_PATHS
   PathSums sums;
 #endif
+#ifdef HAS_CONNECTIONS
+  vec3 left;  // position of the event that `origin` is at
+#endif
   Tally tally;
 };
 

@@ -10,12 +10,12 @@
 #include "path/path.glsl"
 #include "path/roulette.glsl"
 #include "path/rules.glsl"
-#include "path/state.glsl"
 #include "sampling/direction.glsl"
 #include "sampling/event.glsl"
 #include "sampling/meeting.glsl"
 #include "sampling/path_bits.glsl"
 #include "sampling/random.glsl"
+#include "sampling/state.glsl"
 #include "shared/counters.glsl"
 #include "shared/loops.glsl"
 #include "shared/math.glsl"
@@ -23,6 +23,7 @@
 #include "shared/structs.glsl"
 #include "shared/variants.glsl"
 #ifdef HAS_LIGHT_PATHS
+#include "connection/connection.glsl"
 #include "geometry/camera.glsl"
 #include "mis/path_sums.glsl"
 #include "mis/seen_from.glsl"
@@ -73,9 +74,12 @@ void arrive(inout Path path, Event e, BsdfSample next, float t, uint bounce, boo
 }
 
 // One scattering event. Returns whether the path goes on.
-bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits bits) {
+bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits bits, RandomKey key) {
   vec3 direct = direct_light(e, bits, path.tally);
   path.radiance += path.throughput * direct;
+#ifdef HAS_CONNECTIONS
+  path.radiance += path.throughput * connected_light(e, bounce + 1u, key, path.tally);
+#endif
   record_scattering(path, bounce, direct, next);
   if (next.weight == vec3(0.0)) return false;
   float by_value = survival_by_value(path, e, next, bounce);
@@ -90,6 +94,9 @@ bool scatter(inout Path path, Event e, BsdfSample next, uint bounce, EventBits b
   path.cell = cell_of(e);
 #ifdef HAS_LIGHT_PATHS
   path.sums = sums_after(e, next);
+#endif
+#ifdef HAS_CONNECTIONS
+  path.left = e.surface.position;
 #endif
 #ifdef HAS_OWN_LOBES
   path.draws_own = next.direction.is_own;
@@ -128,6 +135,9 @@ Event event_at(inout Path path, Meeting met, uint bounce) {
   e.hit = met.hit;
   e.sums = bounce == 0u ? sums_at_first(e) : path.sums;
 #endif
+#ifdef HAS_CONNECTIONS
+  if (bounce > 0u) e.sums = sums_on_arrival(path.sums, e, path.left);
+#endif
   return e;
 }
 
@@ -163,7 +173,10 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
 #ifdef HAS_LIGHT_PATHS
   path.sums = PathSums(0.0, 0.0);
 #endif
-  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
+#ifdef HAS_CONNECTIONS
+  path.left = origin;
+#endif
+  path.tally = Tally(0u, 0u, 0u, 0u, 0u, 0u, 0u);
 
   // With two_ray, the last event's light needs no further ray of the path.
   uint last_ray = parameters.max_bounces - (NEE == NEE_TWO_RAY && parameters.max_bounces > 0u ? 1u : 0u);
@@ -197,7 +210,7 @@ Path trace(RandomKey key, vec3 origin, vec3 direction) {
           next = bsdf_sample_at(e, bits.direction);
         }
         arrive(path, e, next, met.hit.t, bounce, scatters, bits);
-        going_on = scatters && scatter(path, e, next, bounce, bits) && bounce < last_ray;
+        going_on = scatters && scatter(path, e, next, bounce, bits, key) && bounce < last_ray;
       }
       update_after_ray(path, previous);
       ++bounce;

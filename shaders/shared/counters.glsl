@@ -11,6 +11,7 @@ struct Tally {
   uint fallbacks;
   uint updates;
   uint saturated;
+  uint connections;
 };
 
 void count(uint counter, uint amount) {

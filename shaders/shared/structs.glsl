@@ -150,7 +150,7 @@ const uint SUM_MARK = 4u;
 // What trace.comp leaves for accumulate.comp.
 struct PixelSample {
   vec4 radiance;  // rgb: this frame's sample
-  uvec4 counts;   // rays, path segments, cell lookups | fallbacks << 16, updates | saturated << 16
+  uvec4 counts;   // rays, path segments | connections << 16, cell lookups | fallbacks << 16, updates | saturated << 16
 };
 
 // What a frame's light paths bring to a pixel: the sums of splat.glsl, whose low words stand before the high ones.
@@ -165,6 +165,21 @@ const uint SPLAT_WORDS = 8u;
 const float SPLAT_UNIT = 1.0f / 68719476736.0f;
 // One splat is clamped to this many units (2^58), four million times the brightest light.
 const float SPLAT_LIMIT = 288230376151711744.0f;
+
+// An event of a light path, kept for the camera's paths of the same frame to connect to.
+struct LightVertex {
+  vec3 flux;   // that arrives, over the densities of all that was drawn
+  float chain; // of its PathSums (event.glsl)
+  vec3 wo;     // unit, to where the path came from
+  float last;  // of its PathSums; where `light` is one, over the probability that the event's light samples choose it
+  float second;  // what the triangle's second corner counts for at the event, and its third
+  float third;
+  uint triangle;
+  uint light;  // NO_LIGHT where no light sample draws the way that led here
+  uint events; // of the path up to this one
+  float way;   // through a medium that the path does not know; 0 where it does
+  uvec2 unused;
+};
 
 // Sums over all frames, each times its weight, in double precision.
 struct PixelSum {
@@ -260,7 +275,10 @@ struct Parameters {
   float environment_share;  // of light paths, that start at the constant environment
   float disk_pdf;           // per area, of a disk as large as that sphere
   float pixel_area;         // of the film: of a perspective one at depth 1
-  uint unused;
+  uint kept_paths;          // light paths whose events are kept
+  float connections;        // of an event of the camera with one of a given light path, as expected
+  float unused;
+  uvec2 more_unused;
 };
 
 const int BINDING_PARAMETERS = 0;
@@ -283,6 +301,7 @@ const int BINDING_FILTER_RESULT = 22;
 const int BINDING_BSDF_SHARES = 23;
 const int BINDING_SPLATS = 24;
 const int BINDING_LIGHT_PATHS = 16;  // what each of them counted
+const int BINDING_LIGHT_VERTICES = 6;
 
 // Units of textures and images, for what is fetched (fetch.glsl); as storage, BINDING_FETCHED + unit. There may be more of
 // them than one program may use: that is at most 16 where a device allows no more (MAX_COMPUTE_TEXTURE_IMAGE_UNITS of OpenGL
@@ -320,7 +339,8 @@ const uint BLOCK_LIGHT = 2u;
 const uint BLOCK_TWO_RAY = 3u;
 const uint BLOCK_MORE = 4u;
 const uint BLOCKS_PER_EVENT = 4u;
-const uint BLOCKS_OF_LIGHT_PATHS = 0x20000000u;  // the same of paths from the lights
+const uint BLOCKS_OF_CONNECTIONS = 0x10000000u;  // one for each event
+const uint BLOCKS_OF_LIGHT_PATHS = 0x20000000u;  // the same as for the camera, of paths from the lights
 const uint BLOCKS_OF_PASSING = 0x40000000u;  // one for each ray of a path, behind those of all events
 
 // Below this a lobe is taken for a mirror's: its width, the square, comes near the rounding of directions.
@@ -386,10 +406,11 @@ const uint COUNTER_FIREFLIES = 8u;
 const uint COUNTER_CLAMPED = 9u;
 const uint COUNTER_LIGHT_RAYS = 10u;  // of paths from the lights; they are among all rays, too
 const uint COUNTER_SPLATS = 11u;
-const uint COUNTER_PER_FRAME = 12u;
-const uint COUNTER_ALL_NON_FINITE = 12u;
-const uint COUNTER_LOOPS_CUT = 13u;
-const uint COUNTER_COUNT = 14u;
+const uint COUNTER_CONNECTIONS = 12u;
+const uint COUNTER_PER_FRAME = 13u;
+const uint COUNTER_ALL_NON_FINITE = 13u;
+const uint COUNTER_LOOPS_CUT = 14u;
+const uint COUNTER_COUNT = 16u;  // even: std430 rounds the block up to 16 bytes
 const uint MAX_LOCATIONS = 64u;
 
 struct Counters {

@@ -34,8 +34,8 @@ RenderSettings guided(UpdateRule rule) {
   return settings;
 }
 
-RenderSettings with_light_paths(RenderSettings settings) {
-  settings.light_paths = LightPaths::trace;
+RenderSettings with_light_paths(RenderSettings settings, LightPaths paths) {
+  settings.light_paths = paths;
   return settings;
 }
 
@@ -94,10 +94,13 @@ std::vector<Variant> variants() {
           {"everything", shader_defines(guided(UpdateRule::expected_sarsa), everything())},
           {"everything with paths", shader_defines(guided(UpdateRule::monte_carlo), everything())},
           {"everything in two rays", shader_defines(two_ray, everything())},
-          {"light paths", shader_defines(with_light_paths(plain), features(false))},
-          {"light paths and light samples", shader_defines(with_light_paths(lights), features(true))},
-          {"light paths of everything",
-           shader_defines(with_light_paths(guided(UpdateRule::expected_sarsa)), everything())},
+          {"light paths", shader_defines(with_light_paths(plain, LightPaths::trace), features(false))},
+          {"light paths and light samples",
+           shader_defines(with_light_paths(lights, LightPaths::trace), features(true))},
+          {"connections", shader_defines(with_light_paths(plain, LightPaths::connect), features(false))},
+          {"connections of everything",
+           shader_defines(with_light_paths(guided(UpdateRule::expected_sarsa), LightPaths::connect),
+                          everything())},
           {"mirrors", shader_defines(plain, with(&gpu::SceneFeatures::delta))},
           {"glass", shader_defines(plain, with(&gpu::SceneFeatures::transmission))},
           {"coats", shader_defines(plain, with(&gpu::SceneFeatures::clearcoat))}};
@@ -107,7 +110,9 @@ std::vector<Variant> variants() {
 bool belongs_to(const std::string& file, const gpu::Defines& defines) {
   const bool has_table = defines.contains("HAS_TABLE");
   const bool has_bins = defines.contains("BINS_THETA");
-  if (file.starts_with("mis/") || file.starts_with("light_path/")) return defines.contains("HAS_LIGHT_PATHS");
+  for (const char* room : {"mis/", "connection/", "light_path/"}) {
+    if (file.starts_with(room)) return defines.contains("HAS_LIGHT_PATHS");
+  }
   if (file == "learning/cell.glsl" || file == "learning/grid.glsl" || file == "learning/voronoi.glsl")
     return true;
   if (file == "learning/bins.glsl" || file == "learning/qtable.glsl" || file == "learning/shrinkage.glsl")

@@ -109,9 +109,10 @@ Agreement Comparison::measure(Sampler sampler, Nee nee, int frames, int most_fra
   return result;
 }
 
-Agreement Comparison::measure_light_paths(Sampler sampler, Nee nee, int frames, LightChoice lights) const {
+Agreement Comparison::measure_light_paths(Sampler sampler, Nee nee, LightPaths paths, int frames,
+                                          LightChoice lights) const {
   RenderSettings settings = settings_of(sampler, nee, RandomNumbers::independent, lights);
-  settings.light_paths = LightPaths::trace;
+  settings.light_paths = paths;
   std::vector<RadianceImage> images;
   std::uint64_t non_finite = 0;
   for (int i = 0; i < kSeeds; ++i, ++settings.seed) {

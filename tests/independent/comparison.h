@@ -50,7 +50,7 @@ class Comparison {
   // With paths from the lights. What one of them brings to several pixels ties these together, so the noise
   // of blocks and of the whole comes from the spread of `kSeeds` renders of so many frames each.
   static constexpr int kSeeds = 16;
-  Agreement measure_light_paths(Sampler sampler, Nee nee, int frames,
+  Agreement measure_light_paths(Sampler sampler, Nee nee, LightPaths paths, int frames,
                                 LightChoice lights = LightChoice::power) const;
 
  private:

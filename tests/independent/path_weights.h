@@ -10,6 +10,6 @@ namespace qtrace::independent {
 
 // In a room of feature_rooms.h, with a table that a few frames have taught, for paths of one to three events:
 // expects enough of every length, light paths that count among them, and sums of one to 1e-5.
-void expect_sums_of_one(const std::string& room, Sampler sampler, Nee nee);
+void expect_sums_of_one(const std::string& room, Sampler sampler, Nee nee, LightPaths paths);
 
 }  // namespace qtrace::independent

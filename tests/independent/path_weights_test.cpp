@@ -8,13 +8,15 @@ namespace qtrace::independent {
 namespace {
 
 TEST(PathWeights, SumToOneWithBentNormalsAndATable) {
-  expect_sums_of_one("normals", Sampler::rl, Nee::one_ray);
+  expect_sums_of_one("normals", Sampler::rl, Nee::one_ray, LightPaths::connect);
 }
 
-TEST(PathWeights, SumToOneBehindMirrors) { expect_sums_of_one("mirror", Sampler::bsdf, Nee::none); }
+TEST(PathWeights, SumToOneBehindMirrors) {
+  expect_sums_of_one("mirror", Sampler::bsdf, Nee::none, LightPaths::trace);
+}
 
 TEST(PathWeights, SumToOneThroughRoughGlassWithATable) {
-  expect_sums_of_one("rough_glass", Sampler::rl, Nee::one_ray);
+  expect_sums_of_one("rough_glass", Sampler::rl, Nee::one_ray, LightPaths::connect);
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ constexpr int kBlockSide = 16;
 constexpr int kBlocksOfImage = (kSide / kBlockSide) * (kSide / kBlockSide);
 constexpr int kSeeds = 12;
 
-RenderSettings light_path_settings(Nee nee, int max_bounces) {
+RenderSettings light_path_settings(Nee nee, int max_bounces, LightPaths paths = LightPaths::trace) {
   RenderSettings settings = square_settings(kSide, max_bounces, nee);
-  settings.light_paths = LightPaths::trace;
+  settings.light_paths = paths;
   settings.russian_roulette_start = max_bounces;
   settings.rl.sites_per_object = 20;
   settings.rl.bins_theta = settings.rl.bins_phi = 6;
@@ -179,11 +179,16 @@ TEST(LightPaths, LightsWithoutASurfaceInClosedForm) {
   expect(sun, [&](const glm::vec3&) { return -2.0 * double{sun.direction.y}; });
 }
 
+// Each number of events that a path may have, and none beyond the last.
 TEST(LightPaths, AFurnaceOfLamps) {
   const Scene scene = furnace_box(0.7F, 2);
   for (const Nee nee : {Nee::none, Nee::one_ray}) {
     for (const Sampler sampler : {Sampler::bsdf, Sampler::rl}) {
-      RenderSettings settings = light_path_settings(nee, 6);
+      const bool is_traced = (nee == Nee::none) == (sampler == Sampler::bsdf);
+      RenderSettings settings =
+          light_path_settings(nee, 6, is_traced ? LightPaths::trace : LightPaths::connect);
+      SCOPED_TRACE(testing::Message() << enum_name(sampler) << " + " << enum_name(nee) << ", "
+                                      << enum_name(settings.light_paths));
       settings.sampler = sampler;
       const std::vector<Estimate> truth(kBlocksOfImage, {furnace_radiance(0.7, 2, 6), 0});
       expect_blocks(blocks_over_seeds(scene, settings, 4), truth, 4);
@@ -205,7 +210,7 @@ TEST(LightPaths, AConstantEnvironment) {
 
 TEST(LightPaths, FrozenTablesChangeTheVarianceAlone) {
   const Scene scene = glossy_room();
-  RenderSettings settings = light_path_settings(Nee::one_ray, 3);
+  RenderSettings settings = light_path_settings(Nee::one_ray, 3, LightPaths::connect);
   settings.environment = {0.3, 0.2, 0.1};
   const std::vector<Estimate> truth = camera_blocks(scene, settings, 256);
   settings.sampler = Sampler::rl;
@@ -234,22 +239,23 @@ TEST(LightPaths, EverythingAtOnce) {
   settings.random = RandomNumbers::sobol;
   settings.lights = LightChoice::learned;
   settings.russian_roulette_start = 1;
-  for (const int paths : {500, 3000}) {
-    settings.light_path_count = paths;
+  for (const LightPaths paths : {LightPaths::trace, LightPaths::connect}) {
+    settings.light_paths = paths;
+    settings.light_path_count = paths == LightPaths::trace ? 3000 : 500;
     expect_blocks(blocks_over_seeds(scene, settings, 8), truth, 2);
   }
 }
 
 TEST(LightPaths, TheSameSeedGivesTheSameBits) {
   const Scene scene = glossy_room();
-  RenderSettings settings = light_path_settings(Nee::one_ray, 4);
+  RenderSettings settings = light_path_settings(Nee::one_ray, 4, LightPaths::connect);
   settings.sampler = Sampler::rl;
   EXPECT_EQ(render(scene, settings, 6).image.mean, render(scene, settings, 6).image.mean);
 }
 
 TEST(LightPaths, AreCounted) {
   const Scene scene = shipped("cornell_box.glb");
-  RenderSettings settings = light_path_settings(Nee::one_ray, 4);
+  RenderSettings settings = light_path_settings(Nee::one_ray, 4, LightPaths::connect);
   settings.light_path_count = 777;
   Tracer tracer(device(), scene, settings);
   render(tracer, 2);
@@ -257,12 +263,15 @@ TEST(LightPaths, AreCounted) {
   EXPECT_GT(counters.splats, 100U);
   EXPECT_LT(counters.splats, 4U * 777U);
   EXPECT_GT(counters.light_rays, counters.splats + 777U);
-  EXPECT_GT(counters.rays, counters.light_rays);
+  EXPECT_GT(counters.connections, static_cast<std::uint64_t>(kSide * kSide / 2));
+  EXPECT_LT(counters.connections, static_cast<std::uint64_t>(3 * kSide * kSide));
+  EXPECT_GT(counters.rays, counters.light_rays + counters.connections);
   settings.light_paths = LightPaths::none;
   Tracer without(device(), scene, settings);
   render(without, 2);
   EXPECT_EQ(without.last_frame_counters().light_rays, 0U);
   EXPECT_EQ(without.last_frame_counters().splats, 0U);
+  EXPECT_EQ(without.last_frame_counters().connections, 0U);
 }
 
 void expect_refused(const Scene& scene, const RenderSettings& settings, const std::string& reason) {

@@ -19,9 +19,8 @@ using test::includes_of;
 using test::reaches;
 
 // As in shaders/README.md.
-const std::vector<std::string> kRooms{"shared",   "geometry", "material", "learning",
-                                      "sampling", "mis",      "light",    "path",
-                                      "light_path", "passes"};
+const std::vector<std::string> kRooms{"shared", "geometry",   "material", "learning",   "sampling", "mis",
+                                      "light",  "connection", "path",     "light_path", "passes"};
 
 // By file, both below shaders/.
 IncludeGraph read_shaders() {
