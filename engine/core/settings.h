@@ -59,6 +59,7 @@ struct RenderSettings {
   int light_prior = 2;
   LightPaths light_paths = LightPaths::none;
   int light_path_count = 0;
+  int light_path_trial = 4;
   BvhKind bvh = BvhKind::sah;
   RlSettings rl;
 
@@ -154,6 +155,12 @@ void visit_knobs(Visitor& visit, RenderSettings& settings, Environment& environm
   visit(KnobInfo{"light_path_count", "paths",
                  "light paths of a frame, where there are any; 0: as many as pixels", 0, 268435456, "0"},
         settings.light_path_count);
+  visit(KnobInfo{"light_path_trial", "frames",
+                 "length of a trial of the light paths (an even number): before the first frame, a small "
+                 "picture of the scene is rendered up to four times as often, every other time without them; "
+                 "where error times work is less without them, the run does without; 0: no trial",
+                 0, 1024, "4"},
+        settings.light_path_trial);
   visit(
       KnobInfo{
           "bvh", "",

@@ -103,9 +103,9 @@ Film::Film(int width, int height, int replicates, int light_paths, gpu::ProgramC
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(gpu::PixelOutliers),
           gpu::also_fetched(gpu::Texels::uint4)),
       counters_("statistics", sizeof(gpu::Counters)),  // named so in saved states
-      accumulate_(programs.get("passes/accumulate.comp",
-                               light_paths > 0 ? gpu::Defines{{"HAS_LIGHT_PATHS", "1"}} : gpu::Defines{})) {
+      accumulate_(programs.get("passes/accumulate.comp", {})) {
   if (light_paths == 0) return;
+  accumulate_with_light_paths_ = programs.get("passes/accumulate.comp", {{"HAS_LIGHT_PATHS", "1"}});
   splats_.emplace("splats", samples_.bytes() / sizeof(gpu::PixelSample) * sizeof(gpu::PixelSplat));
   light_paths_.emplace("light paths", static_cast<std::size_t>(light_paths) * sizeof(gpu::uvec4));
 }
@@ -126,15 +126,16 @@ void Film::start_frame() {
   counters_.clear(offsetof(gpu::Counters, words), gpu::COUNTER_PER_FRAME * kCounterBytes);
 }
 
-void Film::accumulate(std::uint32_t frame, float weight) {
+void Film::accumulate(std::uint32_t frame, float weight, bool has_light_paths) {
   count(frame, weight);
+  gpu::Program& program = has_light_paths ? *accumulate_with_light_paths_ : *accumulate_;
   const gpu::Buffer& sums = sums_[place(frame)];
   sums.bind_storage(gpu::BINDING_SUMS);
   sums.bind_fetched(gpu::UNIT_SUMS);
-  accumulate_->set_frame(frame);
-  accumulate_->set_weight(weight);
+  program.set_frame(frame);
+  program.set_weight(weight);
   const auto pixels = static_cast<std::uint32_t>(samples_.bytes() / sizeof(gpu::PixelSample));
-  accumulate_->dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
+  program.dispatch((pixels + gpu::ACCUMULATE_GROUP_PIXELS - 1) / gpu::ACCUMULATE_GROUP_PIXELS);
 }
 
 void Film::count(std::uint32_t frame, float weight) {

@@ -26,8 +26,8 @@ class Film {
 
   void bind() const;
   void start_frame();  // clears the frame's counters
-  // Adds the frame's samples, times its weight; parameters must be bound.
-  void accumulate(std::uint32_t frame, float weight = 1);
+  // Adds the frame's samples, times its weight, and what its light paths brought; parameters must be bound.
+  void accumulate(std::uint32_t frame, float weight, bool has_light_paths);
   void reset();  // as at the start
   // Where samples were found elsewhere; as many as leave room for the film's own. No counter counts them.
   void note_non_finite(std::span<const NonFiniteSample> samples);
@@ -84,6 +84,7 @@ class Film {
   std::optional<gpu::Buffer> splats_;       // of a frame, where paths start at lights: empty between frames
   std::optional<gpu::Buffer> light_paths_;  // what each of them counted
   std::shared_ptr<gpu::Program> accumulate_;
+  std::shared_ptr<gpu::Program> accumulate_with_light_paths_;  // null where there are never any
 };
 
 }  // namespace qtrace

@@ -44,7 +44,7 @@ void render_frame(const Frame& frame, const RenderSettings& settings, const Fram
   }
   trace_light_paths(settings, shaders);
   shaders.trace->dispatch(tiles(settings.width), tiles(settings.height));
-  film.accumulate(frame.number, frame.weight);
+  film.accumulate(frame.number, frame.weight, shaders.trace_light != nullptr);
 }
 
 }  // namespace qtrace

@@ -60,13 +60,10 @@ void Pilot::set_connections(float connections) {
   parameter_block_.write(offsetof(gpu::Parameters, connections), &connections, sizeof(connections));
 }
 
-void Pilot::render(const Shaders& shaders, TableTrial& trial, bool teaches,
-                   const std::function<void()>& learn) {
+void Pilot::render(const Shaders& shaders, Trial& trial, bool teaches, const std::function<void()>& learn) {
   parameter_block_.bind_uniform(gpu::BINDING_PARAMETERS);
   film_.bind();
   film_.reset();
-  counters_ = {};
-  non_finite_samples_.clear();
   std::array<FrameCounters, 2> last;
   for (std::uint32_t frame = 1; frame <= trial.pilot_frames() && !trial.is_decided(); ++frame) {
     const bool is_lesson = frame <= trial.pilot_lessons();
@@ -76,7 +73,7 @@ void Pilot::render(const Shaders& shaders, TableTrial& trial, bool teaches,
     }
     const std::size_t kind = trial.pilot_is_without(frame) ? 0 : 1;
     render_frame({.number = frame, .place = pilot_place(frame, trial), .teaches = is_lesson && teaches},
-                 settings_, kind == 0 ? shaders.without : shaders.with_table, film_);
+                 settings_, kind == 0 ? shaders.without : shaders.with, film_);
     if (is_lesson && teaches && learns_after(frame, trial.pilot_lessons(), most_taught_)) learn();
     last[kind] = film_.counters();
     counters_ += last[kind];

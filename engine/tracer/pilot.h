@@ -9,7 +9,7 @@
 #include "engine/tracer/cell_buffers.h"
 #include "engine/tracer/film.h"
 #include "engine/tracer/frame.h"
-#include "engine/tracer/table_trial.h"
+#include "engine/tracer/trial.h"
 
 #include <glm/vec2.hpp>
 
@@ -29,14 +29,15 @@ class Pilot {
   void set_connections(float connections);
 
   struct Shaders {
-    const FrameShaders& with_table;
+    const FrameShaders& with;  // what is tried
     const FrameShaders& without;
   };
   // Its frames, until the trial is decided. What the image's frames need must be bound, and has to be bound
-  // again. `teaches`: whether its lessons do; `learn` then updates the table. Waits for the work.
-  void render(const Shaders& shaders, TableTrial& trial, bool teaches, const std::function<void()>& learn);
+  // again. `teaches`: whether its lessons do; `learn` then updates the table. Waits for the work. There may
+  // be a pilot for each of several trials.
+  void render(const Shaders& shaders, Trial& trial, bool teaches, const std::function<void()>& learn);
 
-  // Over its frames; paths, rays and the others as the image's frames count them.
+  // Over the frames of all trials; paths, rays and the others as the image's frames count them.
   const FrameCounters& counters() const { return counters_; }
   // Where they lie in the image, with frame 0.
   const std::vector<NonFiniteSample>& non_finite_samples() const { return non_finite_samples_; }

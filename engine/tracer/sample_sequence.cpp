@@ -16,7 +16,7 @@ constexpr std::uint32_t kTriedSequences = 4;
 constexpr std::uint32_t kFullWeight = 16;
 
 std::uint32_t stretch_start(std::uint32_t frame, const RenderSettings& settings,
-                            const LearningSchedule& schedule, const TableTrial& trial) {
+                            const LearningSchedule& schedule, const Trial& trial) {
   if (!has_table(settings)) return 0;
   const std::uint32_t before = frame - 1;
   const std::uint32_t learned = trial.gave_up() ? std::min(before, trial.finding()->frame) : before;
@@ -26,21 +26,21 @@ std::uint32_t stretch_start(std::uint32_t frame, const RenderSettings& settings,
 }  // namespace
 
 SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings,
-                             const LearningSchedule& schedule, const TableTrial& trial) {
+                             const LearningSchedule& schedule, const Trial& trial) {
   const std::uint32_t start = stretch_start(frame, settings, schedule, trial);
   const auto replicates = static_cast<std::uint32_t>(settings.replicates);
   const std::uint32_t sequences = trial.is_tried(frame) ? std::lcm(replicates, kTriedSequences) : replicates;
   return {start * kMostSequences + (frame - 1) % sequences, (frame - 1 - start) / sequences};
 }
 
-SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial) {
+SequencePlace pilot_place(std::uint32_t frame, const Trial& trial) {
   const std::uint32_t lessons = trial.pilot_lessons();
   if (frame <= lessons) return {frame, 0};
   const std::uint32_t tried = frame - lessons - 1;
   return {lessons + 1 + tried % kTriedSequences, tried / kTriedSequences};
 }
 
-float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial) {
+float frame_weight(std::uint32_t frame, const RenderSettings& settings, const Trial& trial) {
   if (settings.random != RandomNumbers::sobol || !has_table(settings)) return 1;
   if (trial.gave_up() && trial.finding()->frame == 0) return 1;
   const auto tried = static_cast<float>(trial.weight(frame));

@@ -3,7 +3,7 @@
 
 #include "engine/core/settings.h"
 #include "engine/tracer/learning_schedule.h"
-#include "engine/tracer/table_trial.h"
+#include "engine/tracer/trial.h"
 
 #include <cstdint>
 
@@ -21,16 +21,16 @@ struct SequencePlace {
 // update the mean would be off. Each stretch therefore has sequences of its own; and within one, replicates
 // have, and the two kinds of frames of a trial.
 SequencePlace sequence_place(std::uint32_t frame, const RenderSettings& settings,
-                             const LearningSchedule& schedule, const TableTrial& trial);
+                             const LearningSchedule& schedule, const Trial& trial);
 
 // Of a frame of the trial's pilot: each lesson has a sequence, and after these each kind of frames has two,
 // which their pairs take in turn.
-SequencePlace pilot_place(std::uint32_t frame, const TableTrial& trial);
+SequencePlace pilot_place(std::uint32_t frame, const Trial& trial);
 
 // Of the frame in the image. With Sobol' points and a table the first frames count for less: their stretches
 // are short, and a long net is worth more than its share of the samples. It depends on nothing but the
 // frame's number and on what was known before the first frame, the pilot's findings among it, so that the
 // mean stays without bias. Independent samples all count alike, as their variance is computed.
-float frame_weight(std::uint32_t frame, const RenderSettings& settings, const TableTrial& trial);
+float frame_weight(std::uint32_t frame, const RenderSettings& settings, const Trial& trial);
 
 }  // namespace qtrace

@@ -13,10 +13,11 @@
 #include "engine/tracer/pilot.h"
 #include "engine/tracer/sample_sequence.h"
 #include "engine/tracer/shader_variant.h"
-#include "engine/tracer/table_trial.h"
 #include "engine/tracer/tiles.h"
+#include "engine/tracer/trial.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <iterator>
@@ -26,7 +27,9 @@
 namespace qtrace {
 namespace {
 
-constexpr const char* kTrial = "trial of the table";  // in states
+// In states.
+constexpr const char* kTableTrial = "trial of the table";
+constexpr const char* kLightPathTrial = "trial of light paths";
 // A GPU that waits lowers its clock, and the first milliseconds of work do not raise it again (seen on an
 // H200).
 constexpr std::chrono::milliseconds kClockRise{50};
@@ -47,24 +50,19 @@ struct Tracer::State {
         film(settings.width, settings.height, settings.replicates, light_paths_of_a_frame(settings),
              context.programs()),
         schedule(settings, has_table(settings) ? most_taught_frames(settings) : 1),
-        trial(settings),
+        table_trial(trial_of_table(settings)),
+        light_path_trial(trial_of_light_paths(settings)),
         parameter_block("parameters", sizeof(gpu::Parameters)) {
-    gpu::Defines defines = shader_defines(settings, buffers.features());
     if (has_table(settings)) {
-      table.emplace(scene, settings.rl, table_actions(settings, buffers.features()), defines,
-                    context.programs());
-      defines = with_cells(defines, table->cells());
+      table.emplace(scene, settings.rl, table_actions(settings, buffers.features()),
+                    shader_defines(settings, buffers.features()), context.programs());
     }
     if (settings.light_paths == LightPaths::connect) light_vertices.emplace(settings);
-    shaders = shaders_of(settings, joined(defines, more));
-    if (trial.is_wanted()) {
-      RenderSettings without = settings;
-      without.sampler = Sampler::bsdf;
-      shaders_without = shaders_of(without, joined(shader_defines(without, buffers.features()), more));
-      pilot.emplace(scene.camera, settings, buffers.features(), &table->cells(), context.programs());
-    }
-    const gpu::Parameters parameters =
-        make_parameters(scene.camera, settings, buffers.features(), table ? &table->cells() : nullptr);
+    make_shaders(more);
+    const CellBuffers* cells = table ? &table->cells() : nullptr;
+    if (table_trial.is_wanted() || light_path_trial.is_wanted())
+      pilot.emplace(scene.camera, settings, buffers.features(), cells, context.programs());
+    const gpu::Parameters parameters = make_parameters(scene.camera, settings, buffers.features(), cells);
     parameter_block.write(0, &parameters, sizeof(parameters));
     warnings = buffers.warnings();
     if (table) {
@@ -73,12 +71,35 @@ struct Tracer::State {
     }
   }
 
-  FrameShaders shaders_of(const RenderSettings& of_frame, const gpu::Defines& defines) const {
+  // All kinds of frames that there may be: trials leave something out.
+  void make_shaders(const gpu::Defines& more) {
+    RenderSettings of_frame = settings;
+    const bool leaves_table = table_trial.is_wanted() || light_path_trial.is_wanted();
+    for (const bool has_paths : {false, true}) {
+      if (has_paths == (settings.light_paths == LightPaths::none)) continue;
+      of_frame.light_paths = has_paths ? settings.light_paths : LightPaths::none;
+      for (const bool guides : {false, true}) {
+        of_frame.sampler = guides || settings.sampler != Sampler::rl ? settings.sampler : Sampler::bsdf;
+        if (guides || leaves_table) kinds[has_paths][guides] = shaders_of(of_frame, more);
+      }
+    }
+  }
+
+  FrameShaders shaders_of(const RenderSettings& of_frame, const gpu::Defines& more) const {
+    gpu::Defines defines = shader_defines(of_frame, buffers.features());
+    if (has_table(of_frame)) defines = with_cells(defines, table->cells());
+    defines = joined(defines, more);
     FrameShaders result;
     result.trace = context.programs().get("passes/trace.comp", defines);
     if (of_frame.light_paths != LightPaths::none)
       result.trace_light = context.programs().get("passes/trace_light.comp", defines);
     return result;
+  }
+
+  // Of the frames that come, with the table or without it.
+  const FrameShaders& shaders(bool guides) const {
+    const bool has_paths = settings.light_paths != LightPaths::none && !light_path_trial.gave_up();
+    return kinds[has_paths][guides];
   }
 
   void bind() const {
@@ -93,6 +114,10 @@ struct Tracer::State {
     return {tiles(settings.width), tiles(settings.height)};
   }
 
+  std::array<std::pair<const char*, Trial*>, 2> trials() {
+    return {{{kTableTrial, &table_trial}, {kLightPathTrial, &light_path_trial}}};
+  }
+
   std::vector<gpu::Buffer*> gathered() {
     std::vector<gpu::Buffer*> all = film.gathered();
     if (table) std::ranges::copy(table->learned(), std::back_inserter(all));
@@ -103,14 +128,17 @@ struct Tracer::State {
   void warm_up() {
     bind();
     if (table) table->reset();
-    for (const FrameShaders& kind : {shaders, shaders_without}) {
-      for (gpu::Program* program : kind.all()) {
-        program->set_frame(0);
-        program->set_teaches(true);
-        program->dispatch(1);
+    for (const auto& pair : kinds) {
+      for (const FrameShaders& kind : pair) {
+        if (!kind.trace) continue;
+        for (gpu::Program* program : kind.all()) {
+          program->set_frame(0);
+          program->set_teaches(true);
+          program->dispatch(1);
+        }
+        film.accumulate(0, 1, kind.trace_light != nullptr);
       }
     }
-    film.accumulate(0);
     expect_connections();
     context.finish();
     if (!context.device().software) keep_busy();
@@ -123,36 +151,39 @@ struct Tracer::State {
   // Light paths of a frame that counts nowhere tell how many events a path has.
   void expect_connections() {
     if (!light_vertices) return;
-    trace_light_paths(settings, shaders);
+    trace_light_paths(settings, shaders(true));
     const float connections = light_vertices->connections(film);
     parameter_block.write(offsetof(gpu::Parameters, connections), &connections, sizeof(connections));
     if (pilot) pilot->set_connections(connections);
   }
 
-  float weight(std::uint32_t frame) const { return frame_weight(frame, settings, trial); }
+  float weight(std::uint32_t frame) const { return frame_weight(frame, settings, table_trial); }
 
   // Before the first frame.
   void render_pilot() {
     if (!pilot) return;
     bind();
-    pilot->render({shaders, shaders_without}, trial, learning, [this] { table->learn(); });
+    if (light_path_trial.is_wanted())
+      pilot->render({kinds[true][false], kinds[false][false]}, light_path_trial, false, {});
+    if (table_trial.is_wanted())
+      pilot->render({shaders(true), shaders(false)}, table_trial, learning, [this] { table->learn(); });
     film.note_non_finite(pilot->non_finite_samples());
     of_pilot = pilot->counters();
   }
 
   void look() {
-    trial.look({.frame = frames,
-                .weights = {weight(frames - 1), weight(frames)},
-                .width = settings.width,
-                .sums = film.half_sums(),
-                .counters = film.counters()});
+    table_trial.look({.frame = frames,
+                      .weights = {weight(frames - 1), weight(frames)},
+                      .width = settings.width,
+                      .sums = film.half_sums(),
+                      .counters = film.counters()});
   }
 
   void keep_busy() {
     const auto [x, y] = groups();
     const auto start = std::chrono::steady_clock::now();
     do {
-      shaders.trace->dispatch(x, y);
+      shaders(true).trace->dispatch(x, y);
       context.finish();
     } while (std::chrono::steady_clock::now() - start < kClockRise);
   }
@@ -162,10 +193,10 @@ struct Tracer::State {
   RenderSettings settings;  // as they take effect
   Film film;
   LearningSchedule schedule;
-  TableTrial trial;
+  Trial table_trial;
+  Trial light_path_trial;
   gpu::Buffer parameter_block;
-  FrameShaders shaders;
-  FrameShaders shaders_without;  // none where no trial is wanted
+  std::array<std::array<FrameShaders, 2>, 2> kinds;  // by whether light paths, and the table, take part
   std::optional<LightVertices> light_vertices;
   std::optional<QTable> table;
   std::optional<Pilot> pilot;  // where a trial is wanted
@@ -198,13 +229,12 @@ void Tracer::render_frame() {
   ++s.frames;
   s.bind();
   const Frame frame{.number = s.frames,
-                    .place = sequence_place(s.frames, s.settings, s.schedule, s.trial),
+                    .place = sequence_place(s.frames, s.settings, s.schedule, s.table_trial),
                     .teaches = s.learning && s.schedule.teaches(s.frames),
                     .weight = s.weight(s.frames)};
-  qtrace::render_frame(frame, s.settings, s.trial.is_without(s.frames) ? s.shaders_without : s.shaders,
-                       s.film);
-  if (s.table && s.learning && !s.trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
-  if (s.trial.looks_after(s.frames)) s.look();
+  qtrace::render_frame(frame, s.settings, s.shaders(!s.table_trial.is_without(s.frames)), s.film);
+  if (s.table && s.learning && !s.table_trial.gave_up() && s.schedule.updates(s.frames)) s.table->learn();
+  if (s.table_trial.looks_after(s.frames)) s.look();
 }
 
 std::uint32_t Tracer::frames() const { return state_->frames; }
@@ -229,13 +259,16 @@ TracerState Tracer::state() const {
   for (const gpu::Buffer* buffer : state_->gathered()) {
     saved.buffers.push_back({buffer->name(), buffer->read_all<std::byte>()});
   }
-  if (state_->trial.is_wanted()) saved.buffers.push_back({kTrial, state_->trial.saved()});
+  for (const auto& [name, trial] : state_->trials()) {
+    if (trial->is_wanted()) saved.buffers.push_back({name, trial->saved()});
+  }
   return saved;
 }
 
 void Tracer::restore(const TracerState& saved) {
   const std::vector<gpu::Buffer*> buffers = state_->gathered();
-  const std::size_t count = buffers.size() + (state_->trial.is_wanted() ? 1 : 0);
+  std::size_t count = buffers.size();
+  for (const auto& [name, trial] : state_->trials()) count += trial->is_wanted() ? 1 : 0;
   check(saved.buffers.size() == count, "the state has {} buffers where this tracer has {}",
         saved.buffers.size(), count);
   for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -244,7 +277,10 @@ void Tracer::restore(const TracerState& saved) {
           "the state has {} bytes of {} where this tracer has {} of {}", from.bytes.size(), from.name,
           buffers[i]->bytes(), buffers[i]->name());
   }
-  if (state_->trial.is_wanted()) state_->trial.restore(saved.buffers.back().bytes);
+  std::size_t place = buffers.size();
+  for (const auto& [name, trial] : state_->trials()) {
+    if (trial->is_wanted()) trial->restore(saved.buffers[place++].bytes);
+  }
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     buffers[i]->write(0, saved.buffers[i].bytes.data(), saved.buffers[i].bytes.size());
   }
@@ -281,7 +317,9 @@ QTable* Tracer::table() {
   return state_->table ? &*state_->table : nullptr;
 }
 
-const TableTrial& Tracer::trial() const { return state_->trial; }
+const Trial& Tracer::table_trial() const { return state_->table_trial; }
+
+const Trial& Tracer::light_path_trial() const { return state_->light_path_trial; }
 
 void Tracer::set_learning(bool learning) { state_->learning = learning; }
 

@@ -7,8 +7,8 @@
 #include "engine/scene/scene.h"
 #include "engine/tracer/counters.h"
 #include "engine/tracer/qtable.h"
-#include "engine/tracer/table_trial.h"
 #include "engine/tracer/tracer_state.h"
+#include "engine/tracer/trial.h"
 
 #include <array>
 #include <cstdint>
@@ -58,7 +58,9 @@ class Tracer {
   QTable* table();                   // null unless directions or lights are learned; for studies of the table
   void set_learning(bool learning);  // false: the table stays as it is
 
-  const TableTrial& trial() const;  // of the table: what it has found so far
+  // What they have found so far.
+  const Trial& table_trial() const;
+  const Trial& light_path_trial() const;
 
   std::uint64_t cells() const;         // states of the table; 0 where there is none
   std::uint64_t device_bytes() const;  // memory of all buffers

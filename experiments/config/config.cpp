@@ -96,6 +96,11 @@ void check_random_numbers(const RenderSettings& render, const Expectation& expec
         "it, two "
         "groups of each",
         render.rl.trial_frames);
+  check(
+      render.light_path_trial % 2 == 0,
+      "key 'light_path_trial' is {} but must be even: the trial compares frames with light paths and without "
+      "them, two groups of each",
+      render.light_path_trial);
   check(expect.against == Against::nothing || render.random == RandomNumbers::independent ||
             render.replicates >= kFewestReplicates,
         "key 'expect' judges a run by the variance of its samples, and with 'random' sobol only replicates "

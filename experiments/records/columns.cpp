@@ -163,6 +163,9 @@ std::vector<Column<RunRecord>> run_columns(const std::vector<Axis>& axes) {
   columns.push_back({"table_given_up_after", [](const R& row) {
                        return row.table_given_up ? CsvValue(std::uint64_t{*row.table_given_up}) : CsvValue();
                      }});
+  columns.push_back({"light_paths_given_up", [](const R& row) {
+                       return CsvValue(std::uint64_t{row.light_paths_given_up ? 1U : 0U});
+                     }});
   add_verdict_columns(columns);
   columns.push_back({"reference_hash", [](const R& row) { return CsvValue(row.reference_hash); }});
   columns.push_back({"config_hash", [](const R& row) { return CsvValue(row.config_hash); }});

@@ -68,7 +68,7 @@ void visit_fields(Visitor& visit, RunRecord& record) {
   visit(record.scene), visit(record.status), visit(record.reason), visit(record.started);
   visit(record.reference_hash), visit(record.config_hash), visit(record.setup_s), visit(record.frames);
   visit(record.snapshots), visit(record.fireflies), visit(record.verdict);
-  visit(record.table_given_up);
+  visit(record.table_given_up), visit(record.light_paths_given_up);
 }
 
 template <class T>

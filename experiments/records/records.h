@@ -64,6 +64,7 @@ struct RunRecord {
   FireflyRecord fireflies;
   std::optional<Verdict> verdict;  // nothing where nothing was expected or the run did not finish
   std::optional<std::uint32_t> table_given_up;  // after which frame (rl.trial_frames); 0: before the first
+  bool light_paths_given_up = false;  // before the first frame (light_path_trial)
 
   std::vector<double> host_ms() const;  // without warm-up frames
   std::vector<double> gpu_ms() const;

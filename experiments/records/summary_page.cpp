@@ -6,6 +6,8 @@
 #include "experiments/runtime/manifest.h"
 
 #include <algorithm>
+#include <functional>
+#include <string_view>
 
 namespace qtrace::experiments {
 namespace {
@@ -115,21 +117,29 @@ std::string slope_lines(const std::vector<Configuration>& configurations) {
   return lines.empty() ? lines : "\nErrors that do not fall as 1/spp:\n" + lines;
 }
 
-// Where seeds decided differently, a configuration is a mixture of two kinds of runs.
-std::string trial_lines(const std::vector<Configuration>& configurations) {
+// Where seeds decided differently, a configuration is a mixture of two kinds of runs. `key`: of the trial.
+std::string given_up_lines(const std::vector<Configuration>& configurations, std::string_view what,
+                           std::string_view key, const std::function<bool(const RunRecord*)>& gave_up) {
   std::string lines;
   for (const Configuration& configuration : configurations) {
-    const auto without = std::ranges::count_if(
-        configuration.members, [](const RunRecord* run) { return run->table_given_up.has_value(); });
+    const auto without = std::ranges::count_if(configuration.members, gave_up);
     if (without == 0) continue;
     const auto seeds = static_cast<std::ptrdiff_t>(configuration.members.size());
+    const std::string mixture = fmt::format(
+        "; the others kept {}, and intervals over few runs of two kinds are too narrow: raise the "
+        "number of seeds, or set {} to 0",
+        what == "Tables" ? "it" : "them", key);
     lines += fmt::format("- {}: given up by {} of {} runs{}\n", configuration.name, without, seeds,
-                         without == seeds ? ""
-                                          : "; the others kept it, and intervals over few runs of two kinds "
-                                            "are too narrow: raise the number of seeds, or set "
-                                            "rl.trial_frames to 0");
+                         without == seeds ? "" : mixture);
   }
-  return lines.empty() ? lines : "\nTables given up after their trial (rl.trial_frames):\n" + lines;
+  return lines.empty() ? lines : fmt::format("\n{} given up after their trial ({}):\n{}", what, key, lines);
+}
+
+std::string trial_lines(const std::vector<Configuration>& configurations) {
+  return given_up_lines(configurations, "Tables", "rl.trial_frames",
+                        [](const RunRecord* run) { return run->table_given_up.has_value(); }) +
+         given_up_lines(configurations, "Light paths", "light_path_trial",
+                        [](const RunRecord* run) { return run->light_paths_given_up; });
 }
 
 std::string time_lines(const std::vector<RunRecord>& records) {

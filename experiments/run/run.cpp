@@ -65,6 +65,25 @@ Json first_manifest(const RunJob& job, const RunRecord& record) {
   return manifest;
 }
 
+Json trial_json(const Trial& trial) {
+  const Trial::Finding& found = *trial.finding();
+  return {{"gain", found.gain},
+          {"gain_error", found.gain_error},
+          {"found", found.found},
+          {"work", found.work},
+          {"needed", found.needed},
+          {"frame", found.frame},
+          {"decided", trial.is_decided()},
+          {"given_up", trial.gave_up()}};
+}
+
+std::string why_given_up(const Trial::Finding& found, std::string_view tried) {
+  return fmt::format(
+      "frames without {0} had {1:.3g} times the error of those with {0}, which take {2:.3g} times the "
+      "work, and {3:.3g} times would pay for that",
+      tried, found.gain, found.work, found.needed);
+}
+
 // A run in progress: its record, its manifest and its files, kept in step.
 class Execution {
  public:
@@ -100,7 +119,8 @@ class Execution {
   void finish(Tracer& tracer, const Reference& reference, Progress& progress);
   void judge_image(const RadianceImage& image, const Reference& reference);
   void note_non_finite(const Tracer& tracer, Progress& progress);
-  void note_trial(const Tracer& tracer, Progress& progress);
+  void note_table_trial(const Trial& trial, Progress& progress);
+  void note_light_path_trial(const Trial& trial, Progress& progress);
   void warn(const std::string& warning, Progress& progress);
 
   const RunJob& job_;
@@ -226,27 +246,31 @@ void Execution::save_checkpoint(const Tracer& tracer) {
   files_->write_manifest(manifest_);
 }
 
-void Execution::note_trial(const Tracer& tracer, Progress& progress) {
-  const TableTrial& trial = tracer.trial();
-  const auto& found = trial.finding();
-  if (!found) return;
-  manifest_["table_trial"] = {{"gain", found->gain},           {"gain_error", found->gain_error},
-                              {"found", found->found},         {"work", found->work},
-                              {"needed", found->needed},       {"frame", found->frame},
-                              {"decided", trial.is_decided()}, {"given_up", trial.gave_up()}};
+void Execution::note_table_trial(const Trial& trial, Progress& progress) {
+  if (!trial.finding()) return;
+  manifest_["table_trial"] = trial_json(trial);
   if (!trial.gave_up()) return;
-  record_.table_given_up = found->frame;
-  warn(
-      fmt::format("{} went without the table: frames without it had {:.3g} times the error of those with it, "
-                  "which take {:.3g} times the work, and {:.3g} times would pay for that (rl.trial_frames)",
-                  found->frame == 0 ? std::string("all frames")
-                                    : fmt::format("after frame {} directions", found->frame),
-                  found->gain, found->work, found->needed),
-      progress);
+  const std::uint32_t frame = trial.finding()->frame;
+  record_.table_given_up = frame;
+  const std::string frames = frame == 0 ? "all frames" : fmt::format("after frame {} directions", frame);
+  warn(fmt::format("{} went without the table: {} (rl.trial_frames)", frames,
+                   why_given_up(*trial.finding(), "it")),
+       progress);
+}
+
+void Execution::note_light_path_trial(const Trial& trial, Progress& progress) {
+  if (!trial.finding()) return;
+  manifest_["light_path_trial"] = trial_json(trial);
+  record_.light_paths_given_up = trial.gave_up();
+  if (!trial.gave_up()) return;
+  warn(fmt::format("all frames went without light paths: {} (light_path_trial)",
+                   why_given_up(*trial.finding(), "them")),
+       progress);
 }
 
 void Execution::finish(Tracer& tracer, const Reference& reference, Progress& progress) {
-  note_trial(tracer, progress);
+  note_table_trial(tracer.table_trial(), progress);
+  note_light_path_trial(tracer.light_path_trial(), progress);
   judge_image(tracer.radiance(), reference);
   note_non_finite(tracer, progress);
   const Outliers outliers = tracer.outliers();

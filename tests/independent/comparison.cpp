@@ -113,6 +113,7 @@ Agreement Comparison::measure_light_paths(Sampler sampler, Nee nee, LightPaths p
                                           LightChoice lights) const {
   RenderSettings settings = settings_of(sampler, nee, RandomNumbers::independent, lights);
   settings.light_paths = paths;
+  settings.light_path_trial = 0;
   std::vector<RadianceImage> images;
   std::uint64_t non_finite = 0;
   for (int i = 0; i < kSeeds; ++i, ++settings.seed) {

@@ -188,6 +188,7 @@ std::array<WeightsFound, kMostEvents> weights_found(const std::string& room, Sam
   RenderSettings settings = test::square_settings(kSize, 5, nee);
   settings.sampler = sampler;
   settings.light_paths = paths;
+  settings.light_path_trial = 0;
   settings.rl.trial_frames = 0;
   settings.rl.sites_per_object = 40;
   std::array<WeightsFound, kMostEvents> found;

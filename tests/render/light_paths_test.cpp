@@ -28,6 +28,7 @@ constexpr int kSeeds = 12;
 RenderSettings light_path_settings(Nee nee, int max_bounces, LightPaths paths = LightPaths::trace) {
   RenderSettings settings = square_settings(kSide, max_bounces, nee);
   settings.light_paths = paths;
+  settings.light_path_trial = 0;
   settings.russian_roulette_start = max_bounces;
   settings.rl.sites_per_object = 20;
   settings.rl.bins_theta = settings.rl.bins_phi = 6;

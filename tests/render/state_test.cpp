@@ -45,15 +45,19 @@ TEST(State, HoldsWhatTheTableHasNotYetLearned) {
 TEST(State, GoesOnWithLightPaths) {
   const Scene scene = glossy_room();
   RenderSettings settings = small_settings(Sampler::rl, LightChoice::power);
-  settings.light_paths = LightPaths::trace;
+  settings.light_paths = LightPaths::connect;
   settings.rl.trial_frames = 0;
-  Tracer whole(device(), scene, settings);
-  render(whole, 3);
-  Tracer later(device(), scene, settings);
-  later.restore(whole.state());
-  render(whole, 3);
-  render(later, 3);
-  expect_equal(later.radiance(), whole.radiance());
+  for (const int trial_frames : {0, 4}) {
+    settings.light_path_trial = trial_frames;
+    Tracer whole(device(), scene, settings);
+    render(whole, 3);
+    Tracer later(device(), scene, settings);
+    later.restore(whole.state());
+    render(whole, 3);
+    render(later, 3);
+    expect_equal(later.radiance(), whole.radiance());
+    EXPECT_EQ(later.light_path_trial().gave_up(), whole.light_path_trial().gave_up());
+  }
 }
 
 // Before the trial of the table, within it and after it.
@@ -70,13 +74,13 @@ TEST(State, GoesOnThroughATrialOfTheTable) {
     states.push_back(std::move(later));
   }
   render(whole, 20);
-  ASSERT_TRUE(whole.trial().finding());
+  ASSERT_TRUE(whole.table_trial().finding());
   for (Tracer& later : states) {
     render(later, static_cast<int>(whole.frames() - later.frames()));
     expect_equal(later.radiance(), whole.radiance());
-    ASSERT_TRUE(later.trial().finding());
-    EXPECT_EQ(later.trial().finding()->gain, whole.trial().finding()->gain);
-    EXPECT_EQ(later.trial().is_decided(), whole.trial().is_decided());
+    ASSERT_TRUE(later.table_trial().finding());
+    EXPECT_EQ(later.table_trial().finding()->gain, whole.table_trial().finding()->gain);
+    EXPECT_EQ(later.table_trial().is_decided(), whole.table_trial().is_decided());
   }
 }
 

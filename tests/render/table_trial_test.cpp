@@ -35,10 +35,10 @@ TEST(TableTrial, GivesTheTableUpUnderAnEvenSkyAndLeavesNoTrace) {
     settings.environment = {1, 1, 1};
     settings.random = random;
     const Tracer tracer = rendered("open_sky.glb", settings, 3);
-    ASSERT_TRUE(tracer.trial().finding());
-    EXPECT_LT(tracer.trial().finding()->gain, 1.2);
-    EXPECT_EQ(tracer.trial().finding()->frame, 0U);
-    EXPECT_TRUE(tracer.trial().gave_up());
+    ASSERT_TRUE(tracer.table_trial().finding());
+    EXPECT_LT(tracer.table_trial().finding()->gain, 1.2);
+    EXPECT_EQ(tracer.table_trial().finding()->frame, 0U);
+    EXPECT_TRUE(tracer.table_trial().gave_up());
     const FrameCounters last = tracer.last_frame_counters();
     EXPECT_EQ(last.cell_lookups, 0U);
     EXPECT_EQ(last.table_updates, 0U);
@@ -56,7 +56,7 @@ TEST(TableTrial, DecidesUnderAnEvenSkyBeforeTheFirstFrame) {
   settings.random = RandomNumbers::sobol;
   for (const std::uint32_t seed : {7U, 9U, 12U, 14U, 15U, 17U, 20U}) {
     settings.seed = seed;
-    EXPECT_TRUE(rendered("open_sky.glb", settings, 1).trial().gave_up()) << seed;
+    EXPECT_TRUE(rendered("open_sky.glb", settings, 1).table_trial().gave_up()) << seed;
   }
 }
 
@@ -97,10 +97,10 @@ TEST(TableTrial, LocatesSamplesOfItsPilotThatAreNotFinite) {
 
 TEST(TableTrial, KeepsTheTableBehindABlocker) {
   const Tracer tracer = rendered("occluded.glb", settings_of(Nee::one_ray), 33);
-  ASSERT_TRUE(tracer.trial().finding());
-  EXPECT_GT(tracer.trial().finding()->gain, 1.4);
-  EXPECT_TRUE(tracer.trial().is_decided());
-  EXPECT_FALSE(tracer.trial().gave_up());
+  ASSERT_TRUE(tracer.table_trial().finding());
+  EXPECT_GT(tracer.table_trial().finding()->gain, 1.4);
+  EXPECT_TRUE(tracer.table_trial().is_decided());
+  EXPECT_FALSE(tracer.table_trial().gave_up());
   EXPECT_GT(tracer.last_frame_counters().cell_lookups, 0U);
 }
 
@@ -108,7 +108,7 @@ TEST(TableTrial, KeepsTheTableBehindABlocker) {
 // calm.
 TEST(TableTrial, KeepsTheTableWhereLightIsMissedWithoutIt) {
   const Tracer tracer = rendered("door_ajar.glb", settings_of(Nee::none), 33);
-  EXPECT_FALSE(tracer.trial().gave_up());
+  EXPECT_FALSE(tracer.table_trial().gave_up());
 }
 
 }  // namespace

@@ -173,10 +173,15 @@ TEST(Baseline, ThePageSaysWhoseTableWasGivenUp) {
   for (RunRecord& run : all) {
     if (run.run.configuration == "a / RL / 10") run.table_given_up = 0;
     if (run.run.id == "bRL202") run.table_given_up = 32;
+    if (run.run.configuration == "b / NEE / 10") run.light_paths_given_up = true;
   }
   const std::string table = experiment_table(experiment(""), all, {}, "d");
   EXPECT_NE(table.find("- a / RL / 10: given up by 3 of 3 runs\n"), std::string::npos) << table;
   EXPECT_NE(table.find("- b / RL / 20: given up by 1 of 3 runs; the others kept it"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("Light paths given up after their trial (light_path_trial):\n- b / NEE / 10: given up "
+                       "by 3 of 3 runs"),
+            std::string::npos)
       << table;
 }
 

@@ -24,7 +24,7 @@ RenderSettings sobol(Sampler sampler, int replicates = 1, int trial_frames = 0) 
 // The frames of each sequence among the first `frames`, in the order of their points.
 std::vector<std::vector<std::uint32_t>> sequences(const RenderSettings& settings, std::uint32_t frames) {
   const LearningSchedule schedule(settings, 1U << 20);
-  const TableTrial trial(settings);
+  const Trial trial(settings);
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   for (std::uint32_t frame = 1; frame <= frames; ++frame) {
     const SequencePlace place = sequence_place(frame, settings, schedule, trial);
@@ -61,7 +61,7 @@ TEST(SampleSequence, IsNotSharedByTheKindsOfFramesOfATrial) {
 
 // Lessons have sequences of their own, as the table is updated after most; then it stands still.
 TEST(SampleSequence, OfThePilotIsThatOfALessonOrOneOfTwoOfAKind) {
-  const TableTrial trial(sobol(Sampler::rl, 1, 4));
+  const Trial trial(sobol(Sampler::rl, 1, 4));
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   for (std::uint32_t frame = 1; frame <= trial.pilot_frames(); ++frame) {
     const SequencePlace place = pilot_place(frame, trial);
@@ -93,7 +93,7 @@ HalfSums sums_after(std::uint32_t pairs) {
 }
 
 // Its table takes twice the work. The pilot knows that half-way.
-void give_up(TableTrial& trial) {
+void give_up(Trial& trial) {
   FrameCounters without, with_table;
   without.rays = 10;
   with_table.rays = 20;
@@ -105,7 +105,7 @@ void give_up(TableTrial& trial) {
 TEST(SampleSequence, IsOneWithoutATableThatWasGivenUp) {
   const RenderSettings settings = sobol(Sampler::rl, 1, 4);
   const LearningSchedule schedule(settings, 1U << 20);
-  TableTrial trial(settings);
+  Trial trial = trial_of_table(settings);
   give_up(trial);
   ASSERT_TRUE(trial.gave_up());
   for (const std::uint32_t frame : {1U, 2U, 16U, 17U, 33U, 100U, 1000U}) {
@@ -121,7 +121,7 @@ TEST(SampleSequence, IsOneWithoutATableThatWasGivenUp) {
 TEST(SampleSequence, GoesOnWithoutATableThatARoundGaveUp) {
   const RenderSettings settings = sobol(Sampler::rl, 1, 4);
   const LearningSchedule schedule(settings, 1U << 20);
-  TableTrial trial(settings);
+  Trial trial = trial_of_table(settings);
   FrameCounters counters;
   for (const std::uint32_t frame : {16U, 18U, 20U, 22U, 24U, 26U, 28U, 30U, 31U, 32U}) {
     counters.rays = frame == 32 ? 20 : 10;
@@ -139,7 +139,7 @@ TEST(SampleSequence, GoesOnWithoutATableThatARoundGaveUp) {
 
 TEST(SampleSequence, WeighsFramesOfShortStretchesLess) {
   const RenderSettings settings = sobol(Sampler::rl);
-  const TableTrial none(settings);
+  const Trial none(settings);
   for (const auto& [frame, weight] : std::map<std::uint32_t, double>{{1, 0.25},
                                                                      {2, 0.25},
                                                                      {3, std::sqrt(0.125)},

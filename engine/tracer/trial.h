@@ -1,5 +1,6 @@
-// Whether a run's directions are drawn with the table: a trial before its first frame and, where that cannot
-// tell, in later ones, by error times work.
+// Whether something that a run may do pays, by error times work: directions drawn with the table, or paths
+// from the lights. A trial takes place before the first frame and, for a table with which that cannot tell,
+// in later ones.
 #pragma once
 
 #include "engine/core/settings.h"
@@ -15,25 +16,31 @@
 
 namespace qtrace {
 
-// First a pilot (pilot.h): frames of a small picture that teach the table, then some of both kinds. As it
-// counts nowhere else, a table that is given up leaves no trace in the image. Where the pilot cannot tell, up
-// to two rounds follow among the image's frames, of which odd ones leave the table out and even ones use it.
-// With Sobol' points, its pairs of frames belong to two sequences in turn, so that the squared difference of
-// the two means of a pixel tells the error of either kind. The frames of a round count in the image, and it
-// decides about later frames only, which draw from new sequences: the mean stays without bias.
-class TableTrial {
+// What is tried is called the table here. First a pilot (pilot.h): frames of a small picture that teach the
+// table, then some of both kinds. As it counts nowhere else, a table that is given up leaves no trace in the
+// image. Where the pilot cannot tell, up to two rounds follow among the image's frames, of which odd ones
+// leave the table out and even ones use it. Paths from the lights have nothing to learn: without lessons and
+// rounds, the pilot decides. With Sobol' points, its pairs of frames belong to two sequences in turn, so that
+// the squared difference of the two means of a pixel tells the error of either kind. The frames of a round
+// count in the image, and it decides about later frames only, which draw from new sequences: the mean stays
+// without bias.
+class Trial {
  public:
-  // None where rl.trial_frames is 0, where directions are not learned, or where lights are, too: these need
-  // the table anyway.
-  explicit TableTrial(const RenderSettings& settings);
+  struct Plan {
+    std::uint32_t unit = 0;     // frames; 0: no trial
+    std::uint32_t lessons = 0;  // of the pilot, in units
+    bool has_rounds = false;
+    bool has_light_samples = true;  // or nothing tells that light is rarely found
+  };
+  Trial(const Plan& plan, RandomNumbers random) : plan_(plan), random_(random) {}
 
-  bool is_wanted() const { return unit_ > 0; }
+  bool is_wanted() const { return plan_.unit > 0; }
 
   // Of the pilot's frames, which count from 1, the first so many only teach; those after them are like a
-  // round, but that they teach nothing. Where half of these suffice, the pilot ends (with rl.trial_frames a
+  // round, but that they teach nothing. Where half of these suffice, the pilot ends (with a unit that is a
   // multiple of 4).
-  std::uint32_t pilot_lessons() const { return 2 * unit_; }
-  std::uint32_t pilot_frames() const { return 6 * unit_; }
+  std::uint32_t pilot_lessons() const { return plan_.lessons * plan_.unit; }
+  std::uint32_t pilot_frames() const { return pilot_lessons() + 4 * plan_.unit; }
   bool pilot_is_without(std::uint32_t frame) const { return frame > pilot_lessons() && frame % 2 == 1; }
   bool looks_after_pilot(std::uint32_t frame) const { return frame > pilot_lessons() && frame % 2 == 0; }
   struct PilotLook {
@@ -99,14 +106,20 @@ class TableTrial {
   void judge_pilot(bool is_halfway, double sharp);
   void conclude(bool is_last);
 
-  std::uint32_t unit_;  // rl.trial_frames; 0: no trial
+  Plan plan_;
   RandomNumbers random_;
-  bool has_light_samples_;
   Verdict verdict_ = Verdict::open;
   std::optional<Finding> finding_;
   double pilot_gain_ = 1;    // what the pilot found last
   TriedSums tried_;          // of the pilot or the round that goes on
   double work_without_ = 0;  // of a frame of the round
 };
+
+// None where rl.trial_frames is 0, where directions are not learned, or where lights are, too: these need the
+// table anyway.
+Trial trial_of_table(const RenderSettings& settings);
+
+// None where light_path_trial is 0, or where there are no such paths.
+Trial trial_of_light_paths(const RenderSettings& settings);
 
 }  // namespace qtrace

@@ -1,4 +1,4 @@
-#include "engine/tracer/table_trial.h"
+#include "engine/tracer/trial.h"
 
 #include "engine/core/check.h"
 #include "engine/tracer/table_gain.h"
@@ -20,6 +20,8 @@ constexpr double kFoundApart = 0.1;
 // Of a search for a cell with what follows from it, in units of a ray: on llvmpipe, frames of the shipped
 // scenes say 0.2 to 1.0.
 constexpr double kWorkPerLookup = 0.6;
+// Of a connection of the camera's path to a light path's event, beside its ray: 2.1 and 3.1 on two scenes.
+constexpr double kWorkPerConnection = 2.5;
 // Standard errors that a gain must be away from its limit, and that it must be half-way through the pilot.
 constexpr double kSure = 2;
 constexpr double kSureEarly = 3;
@@ -44,12 +46,13 @@ constexpr double kLeastWeight = 0.1;
 constexpr std::size_t kSavedNumbers = 10;
 
 // Whether a gain is good for giving a table up, given the largest relative standard error for that.
-bool tells(const TableTrial::Finding& finding, double largest_error) {
+bool tells(const Trial::Finding& finding, double largest_error) {
   return std::abs(finding.found - 1) <= kFoundApart && finding.gain_error <= largest_error * finding.gain;
 }
 
 double work_of(const FrameCounters& counters) {
-  return static_cast<double>(counters.rays) + kWorkPerLookup * static_cast<double>(counters.cell_lookups);
+  return static_cast<double>(counters.rays) + kWorkPerLookup * static_cast<double>(counters.cell_lookups) +
+         kWorkPerConnection * static_cast<double>(counters.connections);
 }
 
 double work_of(const FrameCounters& with_table, double without) {
@@ -57,26 +60,19 @@ double work_of(const FrameCounters& with_table, double without) {
 }
 
 // The gain that pays for the table's work. With independent samples, as much. With Sobol' points the error
-// falls as N^-s without the table, s > 1: fewer frames for the same work lose N^-s, not N^-1; and where the
-// sequence starts anew after 1, 2, 4, ... frames, the sum of these nets has the squared error
+// falls as N^-s without the table, s > 1: fewer frames for the same work lose N^-s, not N^-1; and where what
+// learns has the sequence start anew after 1, 2, 4, ... frames, the sum of these nets has the squared error
 // Σ L^(2-s) / N^2 = N^-s / (2^(2-s) - 1).
 // `halfway`, `all`: frames without the table.
-double needed_gain(double work, TriedFrames halfway, TriedFrames all, int width) {
+double needed_gain(double work, bool learns, TriedFrames halfway, TriedFrames all, int width) {
   const double ratio = gain_of({std::move(halfway), std::move(all)}, width).value;
   const double slope = std::clamp(std::log2(ratio), kLeastSlope, kMostSlope);
-  return std::pow(work, slope) / (std::exp2(2 - slope) - 1);
+  return std::pow(work, slope) / (learns ? std::exp2(2 - slope) - 1 : 1);
 }
 
 }  // namespace
 
-TableTrial::TableTrial(const RenderSettings& settings)
-    : unit_(settings.sampler == Sampler::rl && !learns_lights(settings)
-                ? static_cast<std::uint32_t>(settings.rl.trial_frames)
-                : 0),
-      random_(settings.random),
-      has_light_samples_(settings.nee != Nee::none) {}
-
-void TableTrial::look_at_pilot(PilotLook seen) {
+void Trial::look_at_pilot(PilotLook seen) {
   const std::uint32_t tried = seen.frame - pilot_lessons();
   if (tried == 2) {
     HalfSums nothing;
@@ -85,27 +81,29 @@ void TableTrial::look_at_pilot(PilotLook seen) {
   }
   tried_.add(std::move(seen.sums), {1, 1});
   // Half-way, each sequence must have two frames of either kind for its slope.
-  const bool is_halfway = tried == 2 * unit_ && unit_ % 4 == 0;
+  const bool is_halfway = tried == 2 * plan_.unit && plan_.unit % 4 == 0;
   if (is_halfway || seen.frame == pilot_frames()) {
     finding_ = found(0, work_of(seen.counters[1], work_of(seen.counters[0])), seen.width);
     const FrameCounters& without = seen.counters[0];
     const bool is_light_rare =
         without.paths - without.zero_paths < without.paths / kPathsForEachThatFindsLight;
-    judge_pilot(is_halfway, !has_light_samples_ && is_light_rare ? kSharpWhereLightIsRare : kSharp);
+    judge_pilot(is_halfway, !plan_.has_light_samples && is_light_rare ? kSharpWhereLightIsRare : kSharp);
+    if (!plan_.has_rounds && !is_halfway && !is_decided()) conclude(true);
   }
-  if (tried == unit_ || tried == 2 * unit_) tried_.mark();
+  if (tried == plan_.unit || tried == 2 * plan_.unit) tried_.mark();
   if (is_decided() || seen.frame == pilot_frames()) tried_ = {};
 }
 
-TableTrial::Finding TableTrial::found(std::uint32_t frame, double work, int width) const {
+Trial::Finding Trial::found(std::uint32_t frame, double work, int width) const {
   const Gain gain = gain_of({tried_.frames(0), tried_.frames(1)}, width);
-  const double needed = random_ == RandomNumbers::independent
-                            ? work
-                            : needed_gain(work, tried_.halfway(0), tried_.frames(0), width);
+  const double needed =
+      random_ == RandomNumbers::independent
+          ? work
+          : needed_gain(work, plan_.lessons > 0, tried_.halfway(0), tried_.frames(0), width);
   return {frame, gain.value, gain.error, gain.found, work, needed};
 }
 
-void TableTrial::judge_pilot(bool is_halfway, double sharp) {
+void Trial::judge_pilot(bool is_halfway, double sharp) {
   pilot_gain_ = finding_->gain;
   const double error = (is_halfway ? kSureEarly : kSure) * finding_->gain_error;
   // The first two points of a sequence do not show yet how steep the curve will be.
@@ -117,28 +115,28 @@ void TableTrial::judge_pilot(bool is_halfway, double sharp) {
   }
 }
 
-std::array<TableTrial::Round, 2> TableTrial::rounds() const {
+std::array<Trial::Round, 2> Trial::rounds() const {
   const auto round = [this](std::uint32_t start) {
-    return Round{unit_ * start, unit_ * (start + kRoundLength)};
+    return Round{plan_.unit * start, plan_.unit * (start + kRoundLength)};
   };
   return {round(kRoundStarts[0]), round(kRoundStarts[1])};
 }
 
-bool TableTrial::takes_place(const Round& round) const {
-  return is_wanted() && (!is_decided() || round.end <= finding_->frame);
+bool Trial::takes_place(const Round& round) const {
+  return is_wanted() && plan_.has_rounds && (!is_decided() || round.end <= finding_->frame);
 }
 
-bool TableTrial::is_tried(std::uint32_t frame) const {
+bool Trial::is_tried(std::uint32_t frame) const {
   return std::ranges::any_of(
       rounds(), [&](const Round& r) { return takes_place(r) && frame > r.begin && frame <= r.end; });
 }
 
-bool TableTrial::is_without(std::uint32_t frame) const {
+bool Trial::is_without(std::uint32_t frame) const {
   if (gave_up() && frame > finding_->frame) return true;
   return is_tried(frame) && frame % 2 == 1;
 }
 
-std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
+std::uint32_t Trial::last_boundary(std::uint32_t frame) const {
   std::uint32_t last = 0;
   for (const Round& r : rounds()) {
     if (!takes_place(r)) continue;
@@ -149,20 +147,20 @@ std::uint32_t TableTrial::last_boundary(std::uint32_t frame) const {
   return last;
 }
 
-double TableTrial::weight(std::uint32_t frame) const {
+double Trial::weight(std::uint32_t frame) const {
   const Round first = rounds().front();
   const bool is_of_it = frame > first.begin && frame <= first.end && is_tried(frame) && is_without(frame);
   return is_of_it && pilot_gain_ > 1 ? std::max(1 / pilot_gain_, kLeastWeight) : 1;
 }
 
-bool TableTrial::looks_after(std::uint32_t frame) const {
-  if (!is_wanted() || is_decided()) return false;
+bool Trial::looks_after(std::uint32_t frame) const {
+  if (!is_wanted() || !plan_.has_rounds || is_decided()) return false;
   return std::ranges::any_of(rounds(), [&](const Round& r) {
     return frame >= r.begin && frame <= r.end && (frame % 2 == 0 || frame == r.end - 1);
   });
 }
 
-void TableTrial::look(Look seen) {
+void Trial::look(Look seen) {
   for (const Round& r : rounds()) {
     if (seen.frame < r.begin || seen.frame > r.end) continue;
     if (seen.frame == r.begin) {
@@ -182,7 +180,7 @@ void TableTrial::look(Look seen) {
   }
 }
 
-void TableTrial::conclude(bool is_last) {
+void Trial::conclude(bool is_last) {
   const double most = finding_->gain + kSure * finding_->gain_error;
   if (finding_->gain >= finding_->needed) {
     verdict_ = Verdict::keep;
@@ -193,7 +191,7 @@ void TableTrial::conclude(bool is_last) {
   }
 }
 
-std::vector<std::byte> TableTrial::saved() const {
+std::vector<std::byte> Trial::saved() const {
   const Finding found = finding_.value_or(Finding{});
   const std::array<double, kSavedNumbers> numbers{finding_ ? 1.0 : 0.0, static_cast<double>(found.frame),
                                                   found.gain,           found.gain_error,
@@ -207,7 +205,7 @@ std::vector<std::byte> TableTrial::saved() const {
   return bytes;
 }
 
-void TableTrial::restore(std::span<const std::byte> saved) {
+void Trial::restore(std::span<const std::byte> saved) {
   std::array<double, kSavedNumbers> numbers{};
   constexpr std::size_t kHead = sizeof(numbers);
   const bool has_head = saved.size() >= kHead;
@@ -222,6 +220,20 @@ void TableTrial::restore(std::span<const std::byte> saved) {
   verdict_ = static_cast<Verdict>(static_cast<std::uint32_t>(numbers[7]));
   work_without_ = numbers[8];
   pilot_gain_ = numbers[9];
+}
+
+Trial trial_of_table(const RenderSettings& settings) {
+  const bool is_wanted = settings.sampler == Sampler::rl && !learns_lights(settings);
+  return {{.unit = is_wanted ? static_cast<std::uint32_t>(settings.rl.trial_frames) : 0,
+           .lessons = 2,
+           .has_rounds = true,
+           .has_light_samples = settings.nee != Nee::none},
+          settings.random};
+}
+
+Trial trial_of_light_paths(const RenderSettings& settings) {
+  const bool is_wanted = settings.light_paths != LightPaths::none;
+  return {{.unit = is_wanted ? static_cast<std::uint32_t>(settings.light_path_trial) : 0}, settings.random};
 }
 
 }  // namespace qtrace

@@ -1,5 +1,5 @@
 // The trial that decides whether the table is used, on images whose errors are known.
-#include "engine/tracer/table_trial.h"
+#include "engine/tracer/trial.h"
 
 #include "engine/core/check.h"
 
@@ -70,12 +70,12 @@ Draw steep(double mean, double deviation) {
 // A tracer that shows the trial its pilot and its frames.
 class Frames {
  public:
-  explicit Frames(TableTrial& trial) : trial_(trial) {
+  explicit Frames(Trial& trial) : trial_(trial) {
     for (auto& half : sums_) half.assign(kPixels, glm::vec3(0));
   }
 
   // Goes on from another's frames.
-  Frames(TableTrial& trial, const Frames& other)
+  Frames(Trial& trial, const Frames& other)
       : trial_(trial), sums_(other.sums_), random_(other.random_), frame_(other.frame_) {}
 
   void render_pilot(const Kinds& kinds) {
@@ -120,23 +120,23 @@ class Frames {
     return counters;
   }
 
-  TableTrial& trial_;
+  Trial& trial_;
   HalfSums sums_;
   std::mt19937 random_{7};
   std::uint32_t frame_ = 0;
   std::uint32_t of_pilot_ = 0;
 };
 
-TableTrial tried(const Kinds& kinds, std::uint32_t frames = 80,
-                 RandomNumbers random = RandomNumbers::independent) {
-  TableTrial trial(learned(4, random));
+Trial tried(const Kinds& kinds, std::uint32_t frames = 80,
+            RandomNumbers random = RandomNumbers::independent) {
+  Trial trial = trial_of_table(learned(4, random));
   Frames(trial).render(kinds, frames);
   return trial;
 }
 
 // Kinds whose errors the pilot sees as `first` says, and all later frames as `later` does.
-TableTrial tried_anew(const Kinds& first, const Kinds& later, std::uint32_t frames = 80) {
-  TableTrial trial(learned(4));
+Trial tried_anew(const Kinds& first, const Kinds& later, std::uint32_t frames = 80) {
+  Trial trial = trial_of_table(learned(4));
   Frames all(trial);
   all.render(first, 1);
   all.render(later, frames - 1);
@@ -146,7 +146,7 @@ TableTrial tried_anew(const Kinds& first, const Kinds& later, std::uint32_t fram
 const Kinds kEqual{normal(1, std::sqrt(1.3) * 0.2), normal(1, 0.2)};  // but for the work
 
 TEST(TableTrial, LeavesTheTableOutOfEveryOtherFrameOfItsRounds) {
-  const TableTrial trial(learned(4));
+  const Trial trial = trial_of_table(learned(4));
   EXPECT_EQ(trial.pilot_lessons(), 8U);
   EXPECT_EQ(trial.pilot_frames(), 24U);
   for (std::uint32_t frame = 1; frame <= 24; ++frame)
@@ -165,15 +165,15 @@ TEST(TableTrial, LeavesTheTableOutOfEveryOtherFrameOfItsRounds) {
 }
 
 TEST(TableTrial, IsNotWantedWithoutLearnedDirectionsOrWithLearnedLights) {
-  EXPECT_TRUE(TableTrial(learned(4)).is_wanted());
-  EXPECT_FALSE(TableTrial(learned(0)).is_wanted());
+  EXPECT_TRUE(trial_of_table(learned(4)).is_wanted());
+  EXPECT_FALSE(trial_of_table(learned(0)).is_wanted());
   RenderSettings settings = learned(4);
   settings.sampler = Sampler::bsdf;
-  EXPECT_FALSE(TableTrial(settings).is_wanted());
+  EXPECT_FALSE(trial_of_table(settings).is_wanted());
   settings = learned(4);
   settings.nee = Nee::one_ray;
   settings.lights = LightChoice::learned;
-  EXPECT_FALSE(TableTrial(settings).is_wanted());
+  EXPECT_FALSE(trial_of_table(settings).is_wanted());
 }
 
 // Of a gain, from three channels of 16384 pixels with so many degrees of freedom each; all channels are alike
@@ -182,7 +182,7 @@ double error_of(double gain, double degrees) { return gain * 2 / std::sqrt(degre
 
 // Half-way through the pilot there are four frames of either kind.
 TEST(TableTrial, KeepsATableWhoseErrorTimesWorkIsLess) {
-  const TableTrial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1);
+  const Trial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1);
   ASSERT_TRUE(trial.finding());
   EXPECT_EQ(trial.finding()->frame, 0U);
   EXPECT_NEAR(trial.finding()->gain, 2.25, 0.05);
@@ -196,7 +196,7 @@ TEST(TableTrial, KeepsATableWhoseErrorTimesWorkIsLess) {
 }
 
 TEST(TableTrial, GivesATableUpThatTakesMoreWorkThanItSaves) {
-  const TableTrial trial = tried({normal(1, 0.2), normal(1, 0.2)}, 1);
+  const Trial trial = tried({normal(1, 0.2), normal(1, 0.2)}, 1);
   EXPECT_NEAR(trial.finding()->gain, 1, 0.05);
   EXPECT_EQ(trial.finding()->frame, 0U);
   EXPECT_TRUE(trial.gave_up());
@@ -206,14 +206,14 @@ TEST(TableTrial, GivesATableUpThatTakesMoreWorkThanItSaves) {
 
 // After a round there are eight frames of either kind.
 TEST(TableTrial, DecidesInALaterRound) {
-  const TableTrial kept = tried_anew(kEqual, {normal(1, 0.3), normal(1, 0.2)});
+  const Trial kept = tried_anew(kEqual, {normal(1, 0.3), normal(1, 0.2)});
   EXPECT_EQ(kept.finding()->frame, 32U);
   EXPECT_NEAR(kept.finding()->gain, 2.25, 0.2);
   EXPECT_NEAR(kept.finding()->gain_error, error_of(2.25, 7), 0.002);
   EXPECT_FALSE(kept.gave_up());
   EXPECT_TRUE(kept.is_tried(31)) << "what has been is forgotten";
   EXPECT_FALSE(kept.is_tried(65));
-  const TableTrial given_up = tried_anew(kEqual, {normal(1, 0.2), normal(1, 0.2)});
+  const Trial given_up = tried_anew(kEqual, {normal(1, 0.2), normal(1, 0.2)});
   EXPECT_EQ(given_up.finding()->frame, 32U);
   EXPECT_TRUE(given_up.gave_up());
   EXPECT_FALSE(given_up.is_without(32));
@@ -237,7 +237,7 @@ TEST(TableTrial, IsDecidedByNoSingleSample) {
                                                     std::uint32_t) mutable {
       return ++count == 40000 ? 1e6 : calm(random, 0, 0);
     };
-    const TableTrial trial = without ? tried({bright, calm}, 1) : tried({calm, bright}, 1);
+    const Trial trial = without ? tried({bright, calm}, 1) : tried({calm, bright}, 1);
     EXPECT_NEAR(trial.finding()->gain, 1, 0.1);
     EXPECT_TRUE(trial.gave_up()) << "the bright sample has decided";
   }
@@ -245,7 +245,7 @@ TEST(TableTrial, IsDecidedByNoSingleSample) {
 
 // Frames without the table that miss most of the light are calm, and say nothing.
 TEST(TableTrial, SaysNothingWhereLightIsMissedWithoutTheTable) {
-  const TableTrial trial = tried({normal(0.5, 0.1), normal(1, 0.4)});
+  const Trial trial = tried({normal(0.5, 0.1), normal(1, 0.4)});
   EXPECT_LT(trial.finding()->gain, 1);
   EXPECT_NEAR(trial.finding()->found, 0.5, 0.05);
   EXPECT_EQ(trial.finding()->frame, 80U);
@@ -254,7 +254,7 @@ TEST(TableTrial, SaysNothingWhereLightIsMissedWithoutTheTable) {
 
 // Behind a door that is ajar, nothing may have found the light so far.
 TEST(TableTrial, SaysNothingWhereAllIsBlack) {
-  const TableTrial trial = tried({normal(0, 0), normal(0, 0)});
+  const Trial trial = tried({normal(0, 0), normal(0, 0)});
   EXPECT_EQ(trial.finding()->frame, 80U);
   EXPECT_FALSE(trial.gave_up());
 }
@@ -267,18 +267,18 @@ TEST(TableTrial, WaitsWhereFewSamplesHaveMostOfTheError) {
 // Given a steep curve, fewer frames lose more, and so do nets that start anew.
 TEST(TableTrial, NeedsMoreGainWhereTheErrorFallsFasterThanOneOverN) {
   const Kinds kinds{steep(1, 0.3), steep(1, 0.2)};
-  const TableTrial trial = tried(kinds, 1, RandomNumbers::sobol);
+  const Trial trial = tried(kinds, 1, RandomNumbers::sobol);
   EXPECT_NEAR(trial.finding()->gain, 2.25, 0.2);
   EXPECT_NEAR(trial.finding()->needed, std::pow(1.3, 1.5) / (std::sqrt(2) - 1), 0.3);
   EXPECT_TRUE(trial.gave_up());
-  const TableTrial flat = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
+  const Trial flat = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
   EXPECT_NEAR(flat.finding()->needed, 1.3, 0.1);
   EXPECT_FALSE(flat.gave_up());
 }
 
 // Two sequences have one degree of freedom.
 TEST(TableTrial, TellsErrorsOfPointsByTheirTwoSequences) {
-  const TableTrial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
+  const Trial trial = tried({normal(1, 0.3), normal(1, 0.2)}, 1, RandomNumbers::sobol);
   EXPECT_NEAR(trial.finding()->gain, 2.25, 0.2);
   EXPECT_NEAR(trial.finding()->gain_error, error_of(2.25, 1), 0.01);
 }
@@ -286,7 +286,7 @@ TEST(TableTrial, TellsErrorsOfPointsByTheirTwoSequences) {
 // A clear case ends the pilot half-way, but a table is kept only when it is known how steep the curve is.
 TEST(TableTrial, EndsItsPilotHalfWayWhereThatSuffices) {
   const auto seen = [](double without, RandomNumbers random) {
-    TableTrial trial(learned(4, random));
+    Trial trial = trial_of_table(learned(4, random));
     Frames frames(trial);
     frames.render({normal(1, without), normal(1, 0.2)}, 1);
     EXPECT_TRUE(trial.is_decided());
@@ -300,7 +300,7 @@ TEST(TableTrial, EndsItsPilotHalfWayWhereThatSuffices) {
 
 // With too few frames for two looks there is one.
 TEST(TableTrial, IsAsShortAsItIsTold) {
-  TableTrial trial(learned(2));
+  Trial trial = trial_of_table(learned(2));
   Frames frames(trial);
   frames.render({normal(1, 0.2), normal(1, 0.2)}, 1);
   EXPECT_TRUE(trial.gave_up());
@@ -309,7 +309,7 @@ TEST(TableTrial, IsAsShortAsItIsTold) {
 
 // The pilot says how much noisier frames without the table are, and has no part in the image.
 TEST(TableTrial, WeighsFramesWithoutTheTableByWhatThePilotFoundThemWorth) {
-  TableTrial trial(learned(4));
+  Trial trial = trial_of_table(learned(4));
   Frames frames(trial);
   EXPECT_EQ(trial.weight(17), 1);
   frames.render({normal(1, std::sqrt(1.55) * 0.2), normal(1, 0.2), 1.6}, 17);
@@ -330,7 +330,7 @@ TEST(TableTrial, WeighsFramesWithoutTheTableByWhatThePilotFoundThemWorth) {
 }
 
 TEST(TableTrial, KnowsWhatFramesWeigh) {
-  std::array<TableTrial, 2> trials{TableTrial(learned(4)), TableTrial(learned(4))};
+  std::array<Trial, 2> trials{trial_of_table(learned(4)), trial_of_table(learned(4))};
   for (std::size_t i = 0; i < 2; ++i) {
     Frames frames(trials[i]);
     frames.render(kEqual, 32, i == 0 ? 0.5 : 2);
@@ -342,10 +342,10 @@ TEST(TableTrial, KnowsWhatFramesWeigh) {
 TEST(TableTrial, GoesOnFromWhatWasSaved) {
   const Kinds kinds{normal(1, 0.24), normal(1, 0.21)};
   for (const std::uint32_t frames : {3U, 17U, 21U, 25U, 30U, 31U, 32U}) {
-    TableTrial whole(learned(4));
+    Trial whole = trial_of_table(learned(4));
     Frames first(whole);
     first.render(kinds, frames);
-    TableTrial later(learned(4));
+    Trial later = trial_of_table(learned(4));
     later.restore(whole.saved());
     Frames second(later, first);
     first.render(kinds, 40 - frames);
@@ -356,8 +356,65 @@ TEST(TableTrial, GoesOnFromWhatWasSaved) {
     EXPECT_EQ(later.finding()->work, whole.finding()->work) << frames;
     EXPECT_EQ(later.is_decided(), whole.is_decided()) << frames;
   }
-  TableTrial trial(learned(4));
+  Trial trial = trial_of_table(learned(4));
   EXPECT_THROW(trial.restore(std::vector<std::byte>(9)), Error);
+}
+
+RenderSettings with_light_paths(int frames, RandomNumbers random = RandomNumbers::independent) {
+  RenderSettings settings;
+  settings.sampler = Sampler::bsdf;
+  settings.random = random;
+  settings.light_paths = LightPaths::trace;
+  settings.light_path_trial = frames;
+  return settings;
+}
+
+Trial tried_light_paths(const Kinds& kinds, RandomNumbers random = RandomNumbers::independent) {
+  Trial trial = trial_of_light_paths(with_light_paths(4, random));
+  Frames(trial).render(kinds, 100);
+  return trial;
+}
+
+TEST(LightPathTrial, IsWantedWhereThereAreSuchPaths) {
+  EXPECT_TRUE(trial_of_light_paths(with_light_paths(4)).is_wanted());
+  EXPECT_FALSE(trial_of_light_paths(with_light_paths(0)).is_wanted());
+  EXPECT_FALSE(trial_of_light_paths(learned(4)).is_wanted());
+}
+
+TEST(LightPathTrial, HasAPilotWithoutLessonsAndNoRounds) {
+  const Trial trial = trial_of_light_paths(with_light_paths(4));
+  EXPECT_EQ(trial.pilot_lessons(), 0U);
+  EXPECT_EQ(trial.pilot_frames(), 16U);
+  for (std::uint32_t frame = 1; frame < 200; ++frame) {
+    EXPECT_FALSE(trial.is_tried(frame)) << frame;
+    EXPECT_FALSE(trial.looks_after(frame)) << frame;
+  }
+}
+
+TEST(LightPathTrial, GoesByErrorTimesWork) {
+  EXPECT_FALSE(tried_light_paths({normal(1, 0.4), normal(1, 0.2), 2.4}).gave_up());
+  const Trial given_up = tried_light_paths({normal(1, 0.25), normal(1, 0.2), 2.4});
+  EXPECT_TRUE(given_up.gave_up());
+  EXPECT_TRUE(given_up.is_without(1));
+}
+
+// A gain so close to the work that two standard errors do not tell them apart.
+TEST(LightPathTrial, IsDecidedByTheEndOfItsPilot) {
+  for (const double work : {2.2, 2.25, 2.3}) {
+    const Trial trial = tried_light_paths({normal(1, 0.3), normal(1, 0.2), work});
+    EXPECT_TRUE(trial.is_decided());
+    EXPECT_EQ(trial.gave_up(), trial.finding()->gain < work);
+  }
+}
+
+TEST(LightPathTrial, KeepsWhatFindsLightThatTheOthersMiss) {
+  EXPECT_FALSE(tried_light_paths({normal(0.5, 0.1), normal(1, 0.3), 2.4}).gave_up());
+}
+
+// Work of frames with light paths is needed as often as with the table, but nothing cuts sequences short.
+TEST(LightPathTrial, NeedsWhatTheCurveOfSobolPointsAsksFor) {
+  const Trial trial = tried_light_paths({steep(1, 0.4), steep(1, 0.2), 2}, RandomNumbers::sobol);
+  EXPECT_NEAR(trial.finding()->needed, std::pow(2, 1.5), 0.3);
 }
 
 }  // namespace
