@@ -75,8 +75,10 @@ struct Tracer::State {
   void make_shaders(const gpu::Defines& more) {
     RenderSettings of_frame = settings;
     const bool leaves_table = table_trial.is_wanted() || light_path_trial.is_wanted();
+    const bool may_have_paths = settings.light_paths != LightPaths::none;
     for (const bool has_paths : {false, true}) {
-      if (has_paths == (settings.light_paths == LightPaths::none)) continue;
+      const bool is_needed = has_paths ? may_have_paths : !may_have_paths || light_path_trial.is_wanted();
+      if (!is_needed) continue;
       of_frame.light_paths = has_paths ? settings.light_paths : LightPaths::none;
       for (const bool guides : {false, true}) {
         of_frame.sampler = guides || settings.sampler != Sampler::rl ? settings.sampler : Sampler::bsdf;
@@ -268,7 +270,7 @@ TracerState Tracer::state() const {
 void Tracer::restore(const TracerState& saved) {
   const std::vector<gpu::Buffer*> buffers = state_->gathered();
   std::size_t count = buffers.size();
-  for (const auto& [name, trial] : state_->trials()) count += trial->is_wanted() ? 1 : 0;
+  for (const auto& [name, trial] : state_->trials()) count += trial->is_wanted() ? 1U : 0U;
   check(saved.buffers.size() == count, "the state has {} buffers where this tracer has {}",
         saved.buffers.size(), count);
   for (std::size_t i = 0; i < buffers.size(); ++i) {

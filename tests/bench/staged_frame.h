@@ -29,7 +29,7 @@ class StagedFrame {
 
   // None of these waits.
   void trace(TraceForm form);
-  void accumulate() { film_.accumulate(frame_); }
+  void accumulate() { film_.accumulate(frame_, 1, false); }
   void learn() { table_.learn(); }
   void forget() { table_.discard(); }  // what was gathered
   void next_frame() { ++frame_; }

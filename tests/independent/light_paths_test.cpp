@@ -29,7 +29,8 @@ TEST_P(LightPathRooms, AgreesWithTheIndependentTracer) {
 INSTANTIATE_TEST_SUITE_P(
     Features, LightPathRooms,
     testing::Values(Case{"normals", Sampler::bsdf, Nee::none, LightPaths::trace},
-                    Case{"lamp_in_glass", Sampler::rl, Nee::one_ray, LightPaths::connect},
+                    Case{"lamp_in_glass", Sampler::bsdf, Nee::one_ray, LightPaths::trace},
+                    Case{"in_glass", Sampler::rl, Nee::one_ray, LightPaths::connect},
                     Case{"sky_and_lamp", Sampler::rl, Nee::one_ray, LightPaths::connect}),
     [](const auto& c) { return std::string(c.param.room); });
 

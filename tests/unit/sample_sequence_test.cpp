@@ -24,7 +24,7 @@ RenderSettings sobol(Sampler sampler, int replicates = 1, int trial_frames = 0) 
 // The frames of each sequence among the first `frames`, in the order of their points.
 std::vector<std::vector<std::uint32_t>> sequences(const RenderSettings& settings, std::uint32_t frames) {
   const LearningSchedule schedule(settings, 1U << 20);
-  const Trial trial(settings);
+  const Trial trial = trial_of_table(settings);
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   for (std::uint32_t frame = 1; frame <= frames; ++frame) {
     const SequencePlace place = sequence_place(frame, settings, schedule, trial);
@@ -61,7 +61,7 @@ TEST(SampleSequence, IsNotSharedByTheKindsOfFramesOfATrial) {
 
 // Lessons have sequences of their own, as the table is updated after most; then it stands still.
 TEST(SampleSequence, OfThePilotIsThatOfALessonOrOneOfTwoOfAKind) {
-  const Trial trial(sobol(Sampler::rl, 1, 4));
+  const Trial trial = trial_of_table(sobol(Sampler::rl, 1, 4));
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   for (std::uint32_t frame = 1; frame <= trial.pilot_frames(); ++frame) {
     const SequencePlace place = pilot_place(frame, trial);
@@ -139,7 +139,7 @@ TEST(SampleSequence, GoesOnWithoutATableThatARoundGaveUp) {
 
 TEST(SampleSequence, WeighsFramesOfShortStretchesLess) {
   const RenderSettings settings = sobol(Sampler::rl);
-  const Trial none(settings);
+  const Trial none = trial_of_table(settings);
   for (const auto& [frame, weight] : std::map<std::uint32_t, double>{{1, 0.25},
                                                                      {2, 0.25},
                                                                      {3, std::sqrt(0.125)},
