@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Models the test scenes and writes them as simple, occluded, cornell_box, many_lights, furnace, door_ajar,
-glossy_room, open_sky, sunlit_bath, lamp_in_fixture .glb, sunlit_sky.hdr and hard/*.glb.
+glossy_room, open_sky, sunlit_bath, lamp_in_fixture, corridor .glb, sunlit_sky.hdr and hard/*.glb.
 
 Needs Python 3 and numpy only. The same bytes come out every time
 (those of textures are zlib's, and so of its version). Lengths are
@@ -14,6 +14,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from corridor import CAMERA as CORRIDOR_CAMERA, corridor
 from door_ajar import CAMERA as DOOR_CAMERA, door_ajar
 from gltf_writer import Camera, Material, Object, write_glb
 from glossy_room import CAMERA as GLOSSY_CAMERA, glossy_room
@@ -171,7 +172,8 @@ def main() -> None:
             ("glossy_room", GLOSSY_CAMERA, glossy_room()),
             ("open_sky", SKY_CAMERA, open_sky()),
             ("sunlit_bath", BATH_CAMERA, sunlit_bath()),
-            ("lamp_in_fixture", LAMP_CAMERA, lamp_in_fixture())):
+            ("lamp_in_fixture", LAMP_CAMERA, lamp_in_fixture()),
+            ("corridor", CORRIDOR_CAMERA, corridor())):
         write(out / f"{name}.glb", camera, objects)
     print(f"sunlit_sky.hdr: {write_sky(out / 'sunlit_sky.hdr')} bytes")
     for name, (camera, objects, above) in hard_scenes().items():

@@ -17,7 +17,7 @@ namespace qtrace::independent {
 inline constexpr std::array kScenes{"simple.glb",          "occluded.glb", "cornell_box.glb",
                                     "many_lights.glb",     "furnace.glb",  "door_ajar.glb",
                                     "glossy_room.glb",     "open_sky.glb", "sunlit_bath.glb",
-                                    "lamp_in_fixture.glb", "glossy"};
+                                    "lamp_in_fixture.glb", "corridor.glb", "glossy"};
 
 // Whether a scene is the path of a file, and not one of those that are known by name.
 bool is_file(const std::string& scene);

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 SCENES = ["simple", "occluded", "cornell_box", "many_lights", "furnace", "door_ajar", "glossy_room", "open_sky",
-          "sunlit_bath", "lamp_in_fixture", "glossy"]
+          "sunlit_bath", "lamp_in_fixture", "corridor", "glossy"]
 # What tests/slow/independent_test.cpp prints, and the commit.
 COLUMNS = ["scene", "sampler", "nee", "χ² per pixel", "χ² of blocks", "mean ratio", "frames", "samples", "verdict",
            "commit"]
