@@ -213,7 +213,7 @@ Scene lit_without_surface() {
   return scene;
 }
 
-// A lamp and a ball within a block of glass that absorbs, seen from without.
+// A lamp, a ball and a floor below it within a block of glass that absorbs, seen from without.
 Scene in_glass() {
   Scene scene = furnace_box(0, 0, 0.9F);
   // The box turned inside out.
@@ -227,6 +227,7 @@ Scene in_glass() {
   scene.materials = {block, lambert(glm::vec3(0), {6, 5, 4}), matt};
   add_quad(scene, {-0.3F, 0.7F, -0.3F}, {0.6F, 0, 0}, {0, 0, 0.6F}, lamp);
   add_ball(scene, {0, -0.2F, 0}, 0.5F, ball);
+  add_quad(scene, {-0.7F, -0.8F, -0.7F}, {0, 0, 1.4F}, {1.4F, 0, 0}, ball);
   scene.camera = look_at({-1, 1.5F, 2.5F}, {0, 0, 0}, 0.7F);
   return scene;
 }

@@ -197,6 +197,42 @@ TEST(LightPaths, AFurnaceOfLamps) {
   }
 }
 
+// Light paths pass mirrors, whose events are not kept and count all the same.
+TEST(LightPaths, AFurnaceOfLampsHalfOfWhichAreMirrors) {
+  Scene scene = furnace_box(1, 2);
+  Material mirror = scene.materials.front();
+  mirror.metallic = 1;
+  mirror.roughness = 0;
+  scene.materials.push_back(mirror);
+  for (std::size_t i = 0; i < scene.triangles.size() / 2; ++i) scene.triangles[i].material = 1;
+  const RenderSettings settings = light_path_settings(Nee::one_ray, 3, LightPaths::connect);
+  const std::vector<Estimate> truth(kBlocksOfImage, {furnace_radiance(1, 2, 3), 0});
+  expect_blocks(blocks_over_seeds(scene, settings, 16), truth, 1);
+}
+
+// A lamp shines at a wall, which lights a floor, all within a block that absorbs two thirds of the light on
+// half a metre: the way from the lamp to the wall is known to be in there from the camera's side alone.
+TEST(LightPaths, ConnectionsKnowWhatTheLampStandsIn) {
+  Scene scene = furnace_box(0, 0, 0.9F);
+  for (Triangle& t : scene.triangles) {  // turned inside out
+    std::swap(t.position[1], t.position[2]);
+    for (glm::vec3& n : t.normal) n = -n;
+  }
+  Material block;
+  block.metallic = block.roughness = 0;
+  block.transmission = block.ior = 1;
+  block.is_thin = false;
+  block.attenuation_color = glm::vec3(0.33F);
+  block.attenuation_distance = 0.5F;
+  scene.materials = {block, lambert(glm::vec3(0.8F)), lambert(glm::vec3(0), glm::vec3(20))};
+  add_quad(scene, {-0.7F, -0.7F, -0.7F}, {0, 0, 1.4F}, {1.4F, 0, 0}, 1);   // floor
+  add_quad(scene, {-0.7F, -0.7F, -0.75F}, {1.4F, 0, 0}, {0, 1.4F, 0}, 1);  // wall, towards +z
+  add_quad(scene, {-0.2F, -0.1F, -0.1F}, {0, 0.4F, 0}, {0.4F, 0, 0}, 2);   // lamp, towards -z
+  scene.camera = look_at({0, 1.2F, 1.6F}, {0, -0.7F, 0.1F}, 0.5F);
+  const RenderSettings settings = light_path_settings(Nee::one_ray, 3, LightPaths::connect);
+  expect_blocks(blocks_over_seeds(scene, settings, 16), camera_blocks(scene, settings, 1024), 1);
+}
+
 // A floor under a sky that is the same everywhere.
 TEST(LightPaths, AConstantEnvironment) {
   Scene scene;
