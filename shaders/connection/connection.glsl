@@ -51,13 +51,7 @@ Event event_of(LightVertex vertex) {
   e.wo = vertex.wo;
   e.bsdf = bsdf_of(e.surface, e.wo);
   e.sums = PathSums(vertex.chain, vertex.last);
-#ifdef HAS_TABLE
-  e.cell = no_cell(e.surface);
-#endif
-#if SAMPLER == SAMPLER_RL
-  e.is_guided = false;
-  e.bsdf_share = 1.0;
-#endif
+  leave_table_out(e);
 #ifdef HAS_ABSORPTION
   e.medium = vec3(0.0);
 #endif

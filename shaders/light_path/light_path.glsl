@@ -181,13 +181,7 @@ Event light_event(inout LightPath path, Meeting met, uint bounce) {
 #ifdef HAS_CONNECTIONS
   if (bounce > 0u) e.sums = sums_on_arrival(path.sums, e, path.left);
 #endif
-#ifdef HAS_TABLE
-  e.cell = no_cell(e.surface);
-#endif
-#if SAMPLER == SAMPLER_RL
-  e.is_guided = false;
-  e.bsdf_share = 1.0;
-#endif
+  leave_table_out(e);
 #ifdef HAS_ABSORPTION
   absorb(path, e, met.hit.t);
   e.medium = path.medium;

@@ -10,12 +10,7 @@ Event seen_from(Event e, vec3 viewer) {
   seen.surface = surface_at(e.hit, -viewer);
   seen.bsdf = bsdf_of(seen.surface, viewer);
   seen.wo = viewer;
-#ifdef HAS_TABLE
-  seen.cell = no_cell(seen.surface);
-#endif
-#if SAMPLER == SAMPLER_RL
-  seen.is_guided = false;
-#endif
+  leave_table_out(seen);
   return seen;
 }
 

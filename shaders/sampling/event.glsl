@@ -41,6 +41,17 @@ struct Event {
 #endif
 };
 
+// Its directions are drawn by the BSDF alone then.
+void leave_table_out(inout Event e) {
+#ifdef HAS_TABLE
+  e.cell = no_cell(e.surface);
+#endif
+#if SAMPLER == SAMPLER_RL
+  e.is_guided = false;
+  e.bsdf_share = 1.0;
+#endif
+}
+
 int cell_of(Event e) {
 #ifdef HAS_TABLE
   return e.cell.index;

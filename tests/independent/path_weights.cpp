@@ -50,9 +50,6 @@ Event event_of(vec3 origin, vec3 direction, uint word, PathSums sums, bool is_fi
 // As a light path meets it that comes from `viewer`.
 Event event_of_light(Event e, vec3 viewer, PathSums sums) {
   Event met = seen_from(e, viewer);
-#if SAMPLER == SAMPLER_RL
-  met.bsdf_share = 1.0;
-#endif
   met.sums = sums;
   return met;
 }
