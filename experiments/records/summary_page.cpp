@@ -117,9 +117,11 @@ std::string slope_lines(const std::vector<Configuration>& configurations) {
   return lines.empty() ? lines : "\nErrors that do not fall as 1/spp:\n" + lines;
 }
 
-// Where seeds decided differently, a configuration is a mixture of two kinds of runs. `key`: of the trial.
+// Where seeds decided differently, a configuration is a mixture of two kinds of runs. `key`: of the trial;
+// `they`: the pronoun for what a run keeps.
 std::string given_up_lines(const std::vector<Configuration>& configurations, std::string_view what,
-                           std::string_view key, const std::function<bool(const RunRecord*)>& gave_up) {
+                           std::string_view they, std::string_view key,
+                           const std::function<bool(const RunRecord*)>& gave_up) {
   std::string lines;
   for (const Configuration& configuration : configurations) {
     const auto without = std::ranges::count_if(configuration.members, gave_up);
@@ -128,7 +130,7 @@ std::string given_up_lines(const std::vector<Configuration>& configurations, std
     const std::string mixture = fmt::format(
         "; the others kept {}, and intervals over few runs of two kinds are too narrow: raise the "
         "number of seeds, or set {} to 0",
-        what == "Tables" ? "it" : "them", key);
+        they, key);
     lines += fmt::format("- {}: given up by {} of {} runs{}\n", configuration.name, without, seeds,
                          without == seeds ? "" : mixture);
   }
@@ -136,9 +138,9 @@ std::string given_up_lines(const std::vector<Configuration>& configurations, std
 }
 
 std::string trial_lines(const std::vector<Configuration>& configurations) {
-  return given_up_lines(configurations, "Tables", "rl.trial_frames",
+  return given_up_lines(configurations, "Tables", "it", "rl.trial_frames",
                         [](const RunRecord* run) { return run->table_given_up.has_value(); }) +
-         given_up_lines(configurations, "Light paths", "light_path_trial",
+         given_up_lines(configurations, "Light paths", "them", "light_path_trial",
                         [](const RunRecord* run) { return run->light_paths_given_up; });
 }
 

@@ -66,8 +66,8 @@ void keep(inout LightPath path, Event e, uint index, uint events) {
   if (!path.left_volume) way = path.way;
 #endif
   light_vertices[vertex_place(index, path.kept)] =
-      LightVertex(path.flux, e.sums.chain, e.wo, e.sums.last, e.hit.barycentric.x, e.hit.barycentric.y, e.hit.triangle, path.light, events,
-                  way, uvec2(0u));
+      LightVertex(path.flux, e.sums.chain, e.wo, e.sums.last, e.hit.barycentric.x, e.hit.barycentric.y, e.hit.triangle,
+                  path.light, events, way, uvec2(0u));
   ++path.kept;
 }
 #endif

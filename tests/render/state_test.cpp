@@ -25,20 +25,30 @@ void expect_equal(const RadianceImage& a, const RadianceImage& b) {
   EXPECT_EQ(a.variance, b.variance);
 }
 
+// A tracer of all frames, and one that goes on from its state after the first ones.
+struct Pair {
+  Tracer whole, later;
+};
+
+// Expects the same image of both.
+Pair expect_going_on(const Scene& scene, const RenderSettings& settings, int first, int more) {
+  Pair pair{Tracer(device(), scene, settings), Tracer(device(), scene, settings)};
+  render(pair.whole, first);
+  pair.later.restore(pair.whole.state());
+  render(pair.whole, more);
+  render(pair.later, more);
+  expect_equal(pair.later.radiance(), pair.whole.radiance());
+  return pair;
+}
+
 // What waits for the next update is part of the state.
 TEST(State, HoldsWhatTheTableHasNotYetLearned) {
   const Scene scene = glossy_room();
   RenderSettings settings = small_settings(Sampler::rl, LightChoice::learned);
   settings.rl.mixture = Mixture::learned;
   settings.rl.update_growth = 1;  // after frames 1, 2, 4, 8
-  Tracer whole(device(), scene, settings);
-  render(whole, 6);
-  Tracer later(device(), scene, settings);
-  later.restore(whole.state());
-  render(whole, 4);
-  render(later, 4);
-  expect_equal(later.radiance(), whole.radiance());
-  EXPECT_EQ(later.table()->values(), whole.table()->values());
+  Pair pair = expect_going_on(scene, settings, 6, 4);
+  EXPECT_EQ(pair.later.table()->values(), pair.whole.table()->values());
 }
 
 // What light paths bring in a frame is in the sums when the frame ends.
@@ -49,14 +59,8 @@ TEST(State, GoesOnWithLightPaths) {
   settings.rl.trial_frames = 0;
   for (const int trial_frames : {0, 4}) {
     settings.light_path_trial = trial_frames;
-    Tracer whole(device(), scene, settings);
-    render(whole, 3);
-    Tracer later(device(), scene, settings);
-    later.restore(whole.state());
-    render(whole, 3);
-    render(later, 3);
-    expect_equal(later.radiance(), whole.radiance());
-    EXPECT_EQ(later.light_path_trial().gave_up(), whole.light_path_trial().gave_up());
+    const Pair pair = expect_going_on(scene, settings, 3, 3);
+    EXPECT_EQ(pair.later.light_path_trial().gave_up(), pair.whole.light_path_trial().gave_up());
   }
 }
 
